@@ -1,0 +1,3 @@
+//! polhode
+
+pub mod numerics;

@@ -1,0 +1,224 @@
+//! Carlson's symmetric elliptic integrals R_F, R_C, R_D and R_J by duplication.
+//!
+//! The duplication theorem replaces the arguments by ones four times closer to each other; once they are within
+//! `EPSILON^(1/8)` of their mean, the Taylor series about the mean, kept to degree 7, has reached full accuracy.
+//! Everything is a sum of positive terms, so nothing cancels: a few units in the last place on the whole domain.
+//!
+//! Sources: B. C. Carlson, *Numerical computation of real or complex elliptic integrals*, Numer. Algorithms 10 (1995)
+//! 13-26; the series to degree 7 are those of the NIST Digital Library, 19.36.1 and 19.36.2.
+//!
+//! Not known here: arguments below zero (Cauchy principal values). Outside its domain a function returns NaN.
+
+use crate::numerics::real::Real;
+
+/// Duplications after which a call gives up: each gains two bits, and the largest ratio of two finite `f64` needs
+/// fewer than 1100.
+const MAX_DUPLICATIONS: usize = 1100;
+
+fn c<S: Real>(numerator: f64, denominator: f64) -> S {
+    S::from_f64(numerator) / S::from_f64(denominator)
+}
+
+fn not_a_number<S: Real>() -> S {
+    S::ZERO / S::ZERO
+}
+
+/// First kind, `R_F(x, y, z) = ½ ∫₀^∞ dt / √((t+x)(t+y)(t+z))`.
+///
+/// Domain: `x, y, z ≥ 0`, at most one of them zero. Guarantee: a few ε relative. Outside the domain: NaN.
+pub fn r_f<S: Real>(x: S, y: S, z: S) -> S {
+    let zero = S::ZERO;
+    if !(x >= zero && y >= zero && z >= zero && x + y > zero && y + z > zero && z + x > zero) {
+        return not_a_number();
+    }
+    let quarter = S::from_f64(0.25);
+    let third = c::<S>(1.0, 3.0);
+    let (mut x, mut y, mut z) = (x, y, z);
+    let mut mean = (x + y + z) * third;
+    for _ in 0..MAX_DUPLICATIONS {
+        let spread = (mean - x).abs().max((mean - y).abs()).max((mean - z).abs());
+        if spread <= S::EPSILON_ROOT_8 * mean {
+            break;
+        }
+        let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());
+        let lambda = rx * ry + rz * (rx + ry);
+        x = (x + lambda) * quarter;
+        y = (y + lambda) * quarter;
+        z = (z + lambda) * quarter;
+        mean = (x + y + z) * third;
+    }
+    let inverse = S::ONE / mean;
+    let dx = (mean - x) * inverse;
+    let dy = (mean - y) * inverse;
+    let dz = -(dx + dy);
+    let e2 = dx * dy - dz * dz;
+    let e3 = dx * dy * dz;
+    let series = e2 * (c::<S>(-1.0, 10.0) + e2 * (c::<S>(1.0, 24.0) - c::<S>(5.0, 208.0) * e2))
+        + e3 * (c::<S>(1.0, 14.0) + e2 * (c::<S>(-3.0, 44.0) + e2 * c::<S>(1.0, 16.0)) + e3 * c::<S>(3.0, 104.0));
+    (S::ONE + series) / mean.sqrt()
+}
+
+/// Degenerate first kind, `R_C(x, y) = R_F(x, y, y)`.
+///
+/// Domain: `x ≥ 0`, `y > 0`. Guarantee: a few ε relative. Outside the domain: NaN.
+pub fn r_c<S: Real>(x: S, y: S) -> S {
+    if !(x >= S::ZERO && y > S::ZERO) {
+        return not_a_number();
+    }
+    let quarter = S::from_f64(0.25);
+    let third = c::<S>(1.0, 3.0);
+    let (mut x, mut y) = (x, y);
+    let mut mean = (x + y + y) * third;
+    for _ in 0..MAX_DUPLICATIONS {
+        // The series below is in s = (y − mean)/mean, and |x − mean| = 2|y − mean|.
+        if (y - mean).abs() <= S::EPSILON_ROOT_8 * mean {
+            break;
+        }
+        let ry = y.sqrt();
+        let lambda = ry * (x.sqrt() + x.sqrt()) + y;
+        x = (x + lambda) * quarter;
+        y = (y + lambda) * quarter;
+        mean = (x + y + y) * third;
+    }
+    let s = (y - mean) / mean;
+    let series = s
+        * s
+        * (c::<S>(3.0, 10.0)
+            + s * (c::<S>(1.0, 7.0)
+                + s * (c::<S>(3.0, 8.0)
+                    + s * (c::<S>(9.0, 22.0) + s * (c::<S>(159.0, 208.0) + s * c::<S>(9.0, 8.0))))));
+    (S::ONE + series) / mean.sqrt()
+}
+
+/// The common series of `R_D` and `R_J` in the elementary symmetric functions of the relative deviations.
+fn second_and_third_kind_series<S: Real>(e2: S, e3: S, e4: S, e5: S) -> S {
+    e2 * (c::<S>(-3.0, 14.0) + e2 * (c::<S>(9.0, 88.0) - c::<S>(1.0, 16.0) * e2))
+        + e3 * (c::<S>(1.0, 6.0) + e2 * (c::<S>(-9.0, 52.0) + c::<S>(45.0, 272.0) * e2) + c::<S>(3.0, 40.0) * e3)
+        + e4 * (c::<S>(-3.0, 22.0) + c::<S>(3.0, 20.0) * e2 - c::<S>(9.0, 68.0) * e3)
+        + e5 * (c::<S>(3.0, 26.0) - c::<S>(9.0, 68.0) * e2)
+}
+
+/// Second kind, `R_D(x, y, z) = (3/2) ∫₀^∞ dt / ((t+z) √((t+x)(t+y)(t+z)))`.
+///
+/// Domain: `x, y ≥ 0`, not both zero, `z > 0`. Guarantee: a few ε relative. Outside the domain: NaN.
+pub fn r_d<S: Real>(x: S, y: S, z: S) -> S {
+    let zero = S::ZERO;
+    if !(x >= zero && y >= zero && x + y > zero && z > zero) {
+        return not_a_number();
+    }
+    let quarter = S::from_f64(0.25);
+    let fifth = c::<S>(1.0, 5.0);
+    let three = S::from_f64(3.0);
+    let (mut x, mut y, mut z) = (x, y, z);
+    let mut sum = zero;
+    let mut weight = S::ONE;
+    let mut mean = (x + y + three * z) * fifth;
+    for _ in 0..MAX_DUPLICATIONS {
+        let spread = (mean - x).abs().max((mean - y).abs()).max((mean - z).abs());
+        if spread <= S::EPSILON_ROOT_8 * mean {
+            break;
+        }
+        let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());
+        let lambda = rx * ry + rz * (rx + ry);
+        sum += weight / (rz * (z + lambda));
+        weight *= quarter;
+        x = (x + lambda) * quarter;
+        y = (y + lambda) * quarter;
+        z = (z + lambda) * quarter;
+        mean = (x + y + three * z) * fifth;
+    }
+    let inverse = S::ONE / mean;
+    let dx = (mean - x) * inverse;
+    let dy = (mean - y) * inverse;
+    let dz = -(dx + dy) / three;
+    let (xy, zz) = (dx * dy, dz * dz);
+    let e2 = xy - S::from_f64(6.0) * zz;
+    let e3 = (three * xy - S::from_f64(8.0) * zz) * dz;
+    let e4 = three * (xy - zz) * zz;
+    let e5 = xy * zz * dz;
+    let series = second_and_third_kind_series(e2, e3, e4, e5);
+    three * sum + weight * (S::ONE + series) * inverse / mean.sqrt()
+}
+
+/// Third kind, `R_J(x, y, z, p) = (3/2) ∫₀^∞ dt / ((t+p) √((t+x)(t+y)(t+z)))`.
+///
+/// Domain: `x, y, z ≥ 0`, at most one of them zero, `p > 0`. Guarantee: a few ε relative. Outside the domain: NaN.
+pub fn r_j<S: Real>(x: S, y: S, z: S, p: S) -> S {
+    let zero = S::ZERO;
+    let in_domain = x >= zero && y >= zero && z >= zero && x + y > zero && y + z > zero && z + x > zero;
+    if !(in_domain && p > zero) {
+        return not_a_number();
+    }
+    let quarter = S::from_f64(0.25);
+    let fifth = c::<S>(1.0, 5.0);
+    let two = S::from_f64(2.0);
+    let three = S::from_f64(3.0);
+    let (mut x, mut y, mut z, mut p) = (x, y, z, p);
+    let mut sum = zero;
+    let mut weight = S::ONE;
+    let mut mean = (x + y + z + two * p) * fifth;
+    for _ in 0..MAX_DUPLICATIONS {
+        let spread = (mean - x).abs().max((mean - y).abs()).max((mean - z).abs()).max((mean - p).abs());
+        if spread <= S::EPSILON_ROOT_8 * mean {
+            break;
+        }
+        let (rx, ry, rz, rp) = (x.sqrt(), y.sqrt(), z.sqrt(), p.sqrt());
+        let lambda = rx * ry + rz * (rx + ry);
+        let d = (rp + rx) * (rp + ry) * (rp + rz);
+        // e = (p−x)(p−y)(p−z)/d², written as a product of three ratios so that nothing over- or underflows.
+        let e = ((rp - rx) / (rp + rx)) * ((rp - ry) / (rp + ry)) * ((rp - rz) / (rp + rz));
+        sum += weight / d * r_c(S::ONE, S::ONE + e);
+        weight *= quarter;
+        x = (x + lambda) * quarter;
+        y = (y + lambda) * quarter;
+        z = (z + lambda) * quarter;
+        p = (p + lambda) * quarter;
+        mean = (x + y + z + two * p) * fifth;
+    }
+    let inverse = S::ONE / mean;
+    let dx = (mean - x) * inverse;
+    let dy = (mean - y) * inverse;
+    let dz = (mean - z) * inverse;
+    let dp = -(dx + dy + dz) / two;
+    let xyz = dx * dy * dz;
+    let pp = dp * dp;
+    let e2 = dx * dy + dz * (dx + dy) - three * pp;
+    let e3 = xyz + two * e2 * dp + S::from_f64(4.0) * pp * dp;
+    let e4 = (two * xyz + e2 * dp + three * pp * dp) * dp;
+    let e5 = xyz * pp;
+    let series = second_and_third_kind_series(e2, e3, e4, e5);
+    S::from_f64(6.0) * sum + weight * (S::ONE + series) * inverse / mean.sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(got: f64, expected: f64) {
+        let error = ((got - expected) / expected).abs() / f64::EPSILON;
+        assert!(error <= 4.0, "{got:e} differs from {expected:e} by {error} ε");
+    }
+
+    /// Values of Carlson 1995, section 3 (printed to 14 digits), extended with mpmath 1.3 at 40 digits.
+    #[test]
+    fn published_values() {
+        close(r_f(1.0, 2.0, 0.0), 1.311_028_777_146_059_9);
+        close(r_f(2.0, 3.0, 4.0), 0.584_082_841_677_151_7);
+        close(r_c(0.0, 0.25), std::f64::consts::PI);
+        close(r_c(2.25, 2.0), std::f64::consts::LN_2);
+        close(r_d(0.0, 2.0, 1.0), 1.797_210_352_103_388_3);
+        close(r_d(2.0, 3.0, 4.0), 0.165_105_272_942_610_53);
+        close(r_j(0.0, 1.0, 2.0, 3.0), 0.776_886_237_785_823_3);
+        close(r_j(2.0, 3.0, 4.0, 5.0), 0.142_975_796_671_567_54);
+    }
+
+    #[test]
+    fn outside_the_domain_is_not_a_number() {
+        assert!(r_f(-1.0, 1.0, 1.0).is_nan());
+        assert!(r_f(0.0, 0.0, 1.0).is_nan());
+        assert!(r_c(1.0, 0.0).is_nan());
+        assert!(r_d(1.0, 1.0, 0.0).is_nan());
+        assert!(r_j(1.0, 1.0, 1.0, 0.0).is_nan());
+        assert!(r_f(f64::NAN, 1.0, 1.0).is_nan());
+    }
+}

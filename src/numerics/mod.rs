@@ -1,0 +1,4 @@
+//! Pure mathematics on floating-point numbers. Knows no geometry and no files.
+
+pub mod elliptic;
+pub mod real;
