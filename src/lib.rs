@@ -1,3 +1,4 @@
 //! polhode
 
+pub mod contract;
 pub mod numerics;

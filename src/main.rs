@@ -1,1 +1,2 @@
+//! The `polhode` command.
 fn main() {}

@@ -20,7 +20,7 @@ fn c<S: Real>(numerator: f64, denominator: f64) -> S {
 }
 
 fn not_a_number<S: Real>() -> S {
-    S::ZERO / S::ZERO
+    S::from_f64(f64::NAN)
 }
 
 /// First kind, `R_F(x, y, z) = ½ ∫₀^∞ dt / √((t+x)(t+y)(t+z))`.

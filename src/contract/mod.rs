@@ -1,0 +1,10 @@
+//! What experiments, effects and the runner promise each other. Names no other room.
+
+pub mod accuracy;
+pub mod claim;
+pub mod digest;
+pub mod manifest;
+pub mod node;
+pub mod plan;
+pub mod value;
+pub mod work;
