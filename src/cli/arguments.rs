@@ -1,0 +1,263 @@
+//! The command line: verbs, options and their help.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+
+/// Regenerates the article on the Euler-Poinsot rigid body motion, and answers for single points.
+#[derive(Debug, Parser)]
+#[command(
+    name = "polhode",
+    version,
+    disable_help_subcommand = true,
+    before_help = "Examples:
+  polhode figures                       regenerate the whole article into figures/
+  polhode figures fig7                  only Figure 7
+  polhode why figures/fig7.svg          why it will (not) be computed again
+  polhode check                         goldens, references and claims: the verdict table
+  polhode point spin k=0.8 p_theta=1    one first conjugate point
+  polhode point serret-andoyer A=1.5 B=2 C=2.8 phi0=0 delta=1e-3 branch=ascending
+  polhode show fig7/conjugate-locus/k=0.8 --csv"
+)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+}
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Compute what is stale and write figures, data and values: the main job
+    Figures(FiguresArguments),
+    /// Run what is stale, then compare with goldens and references and judge the article's claims
+    Check(CheckArguments),
+    /// Say why a target will (not) be computed again: the changed leaf, old → new, and what follows
+    Why(WhyArguments),
+    /// List the experiments, their nodes, outputs and work
+    List(ListArguments),
+    /// Print the graph of nodes
+    Graph(GraphArguments),
+    /// Print a computed table, with units and meanings
+    Show(ShowArguments),
+    /// Compute the first conjugate point of one extremal, or of a table of them
+    Point(PointArguments),
+    /// Write a new experiment: a module and its config, ready to run
+    New(NewArguments),
+}
+
+/// Where things lie, and how to run: the options that verbs share.
+#[derive(Args, Clone, Debug, Default)]
+pub struct PlaceArguments {
+    /// Folder of the experiment configs [default: experiments/ of the nearest ancestor that has one]
+    #[arg(long, value_name = "DIR")]
+    pub experiments: Option<PathBuf>,
+    /// Folder of the outputs [default: figures/ beside experiments/]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Folder of the store [default: .polhode/ beside experiments/]
+    #[arg(long, value_name = "DIR")]
+    pub store: Option<PathBuf>,
+    /// Accuracy in place of the configs': draft (1e-4), article (1e-14) or a relative error; outputs of another level than
+    /// article go to OUT/LEVEL/
+    #[arg(long, value_name = "LEVEL")]
+    pub accuracy: Option<String>,
+}
+
+/// How to run what is stale.
+#[derive(Args, Clone, Debug, Default)]
+pub struct RunArguments {
+    /// Where things lie.
+    #[command(flatten)]
+    pub place: PlaceArguments,
+    /// Nodes in flight at once [default: the number of cores]
+    #[arg(long, short, value_name = "N")]
+    pub jobs: Option<std::num::NonZeroUsize>,
+    /// Plain output: no progress line even on a terminal
+    #[arg(long)]
+    pub no_progress: bool,
+    /// Machine-readable output on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `figures`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode figures                 everything
+  polhode figures fig7 fig8       two experiments
+  polhode figures --dry-run       what would run, and why; nothing is written
+  polhode figures --out /tmp/f --store /tmp/s --jobs 1")]
+pub struct FiguresArguments {
+    /// Experiments (fig7), outputs (figures/fig7.svg) or nodes (fig7/conjugate-locus/k=0.8); all where none is given
+    #[arg(value_name = "TARGET")]
+    pub targets: Vec<String>,
+    /// Where and how.
+    #[command(flatten)]
+    pub run: RunArguments,
+    /// Compute again even what is up to date
+    #[arg(long)]
+    pub force: bool,
+    /// Stop at the first node that fails
+    #[arg(long)]
+    pub fail_fast: bool,
+    /// Say what would run and why; write nothing; exit code 6 where an output would change
+    #[arg(long)]
+    pub dry_run: bool,
+}
+
+/// Options of `check`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode check                   the verdict table
+  polhode check fig4              of one experiment
+  polhode check --strict --json   as continuous integration asks it")]
+pub struct CheckArguments {
+    /// Experiments; all where none is given
+    #[arg(value_name = "TARGET")]
+    pub targets: Vec<String>,
+    /// Where and how.
+    #[command(flatten)]
+    pub run: RunArguments,
+    /// A golden that can't be compared (edited config, no golden yet) counts as different
+    #[arg(long)]
+    pub strict: bool,
+}
+
+/// Options of `why`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode why fig7
+  polhode why figures/fig7.svg
+  polhode why fig7/conjugate-locus/k=0.8 --json")]
+pub struct WhyArguments {
+    /// An experiment, an output or a node
+    #[arg(value_name = "TARGET")]
+    pub target: String,
+    /// Where things lie.
+    #[command(flatten)]
+    pub place: PlaceArguments,
+    /// Machine-readable output on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `list`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode list
+  polhode list fig7 --json")]
+pub struct ListArguments {
+    /// Experiments; all where none is given
+    #[arg(value_name = "TARGET")]
+    pub targets: Vec<String>,
+    /// Where things lie.
+    #[command(flatten)]
+    pub place: PlaceArguments,
+    /// Machine-readable output on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A way to write the graph.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub enum GraphForm {
+    /// Indented text
+    #[default]
+    Text,
+    /// Graphviz
+    Dot,
+    /// Mermaid
+    Mermaid,
+    /// JSON
+    Json,
+}
+
+/// Options of `graph`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode graph fig7
+  polhode graph --form dot | dot -Tsvg > graph.svg")]
+pub struct GraphArguments {
+    /// Experiments; all where none is given
+    #[arg(value_name = "TARGET")]
+    pub targets: Vec<String>,
+    /// Where things lie.
+    #[command(flatten)]
+    pub place: PlaceArguments,
+    /// The form
+    #[arg(long, value_enum, default_value_t)]
+    pub form: GraphForm,
+    /// The same as --form json
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `show`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode show fig7/conjugate-locus/k=0.8
+  polhode show fig7/conjugate-locus/k=0.8 --csv > locus.csv
+  polhode show figures/data/fig7/conjugate-locus-k=0.8.parquet")]
+pub struct ShowArguments {
+    /// A node's address, with `:NAME` where it has more than one table, or a Parquet file
+    #[arg(value_name = "TABLE")]
+    pub table: String,
+    /// Where things lie.
+    #[command(flatten)]
+    pub place: PlaceArguments,
+    /// All rows as CSV, floats in full
+    #[arg(long)]
+    pub csv: bool,
+    /// Rows at most, as text
+    #[arg(long, value_name = "N", default_value_t = 40)]
+    pub rows: usize,
+}
+
+/// Options of `point`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode point spin k=0.8 p_theta=1
+  polhode point serret-andoyer A=1.5 B=2 C=2.8 phi0=0 delta=1e-3 branch=ascending
+  polhode point serret-andoyer A=1.5 B=2 C=2.8 y0=0.5 p_x=1.1 p_y=0.3 --json
+  polhode point rotation-group A=1.5 B=2 C=2.8 H1=-1 H2=-0.3 H3=0.3
+  polhode point rotation-group A=1.5 B=2 C=2.8 Phi2=2.8506 Phi3=-0.32175 p1=0 p2=0 p3=0.3155946
+  polhode point spin k=0.8 --input starts.csv --output points.csv     a table of starts, columns named as the keys")]
+pub struct PointArguments {
+    /// serret-andoyer, spin or rotation-group
+    #[arg(value_name = "METRIC")]
+    pub metric: String,
+    /// The metric's parameters and the start, as key=value; with --input, values for all rows
+    #[arg(value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    pub values: Vec<String>,
+    /// A table of starts: CSV or Parquet, by the file's ending
+    #[arg(long, value_name = "FILE", requires = "output")]
+    pub input: Option<PathBuf>,
+    /// Where the table of points goes: CSV or Parquet, by the file's ending
+    #[arg(long, value_name = "FILE", requires = "input")]
+    pub output: Option<PathBuf>,
+    /// Rows computed at once [default: the number of cores]
+    #[arg(long, short, value_name = "N")]
+    pub jobs: Option<std::num::NonZeroUsize>,
+    /// draft, article or a relative error
+    #[arg(long, value_name = "LEVEL", default_value = "article")]
+    pub accuracy: String,
+    /// Machine-readable output on stdout
+    #[arg(long)]
+    pub json: bool,
+    /// Plain output: no progress line even on a terminal
+    #[arg(long)]
+    pub no_progress: bool,
+}
+
+/// Options of `new`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode new fig10      src/experiments/fig10.rs, experiments/fig10.toml and the word in mod.rs")]
+pub struct NewArguments {
+    /// The new experiment's id: lower-case letters, digits, underscores
+    #[arg(value_name = "ID")]
+    pub id: String,
+    /// Folder of the experiment configs [default: experiments/ of the nearest ancestor that has one]
+    #[arg(long, value_name = "DIR")]
+    pub experiments: Option<PathBuf>,
+}

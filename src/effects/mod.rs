@@ -1,0 +1,4 @@
+//! Node kinds: what a scene can call for. A kind belongs to its effect, never to a figure.
+
+pub mod product;
+pub mod scene;

@@ -1,0 +1,260 @@
+//! What an experiment is: parameters from TOML, the nodes that it asks for, a picture, named values and claims.
+//!
+//! A module implements [`Definition`]; [`Experiment::of`] makes the constant that the command knows it by. Planning turns
+//! one config into a [`Plan`]: the compute nodes, and two more that read their tables, the picture and the findings.
+
+use crate::contract::accuracy::Accuracy;
+use crate::contract::claim::Claim;
+use crate::contract::config::{self, ConfigError, Validate};
+use crate::contract::digest::Digest;
+use crate::contract::manifest::{self, Manifest};
+use crate::contract::node::{Address, Artifact, Compute, Inputs, Kind, Node, NodeError, Product};
+use crate::contract::plan::{ConfigSource, Export, Plan};
+use crate::contract::value::{Findings, NamedValue};
+use crate::contract::work::Work;
+use crate::experiments::nodes::Nodes;
+use crate::plot::Picture;
+use crate::table::{Table, Tables};
+use serde::de::DeserializeOwned;
+use serde::{Serialize, Serializer};
+
+/// The output of a picture node.
+pub const PICTURE_FILE: &str = "picture.svg";
+/// The output of a findings node.
+pub const FINDINGS_FILE: &str = "findings.json";
+/// The name of the node that holds an experiment's values and claims.
+pub const FINDINGS_NODE: &str = "findings";
+
+/// An experiment, as its module writes it.
+pub trait Definition: 'static {
+    /// The config's content below `kind = "…"`.
+    type Params: Serialize + DeserializeOwned + Validate + Clone + Send + Sync;
+
+    /// The module's name, and the `kind` of its configs.
+    const ID: &'static str;
+    /// What it shows, in a few words.
+    const TITLE: &'static str;
+    /// Where it stands in the article.
+    const PLACE: &'static str;
+    /// The kind of its picture node: see [`picture_kind`].
+    const PICTURE: &'static Kind;
+    /// The kind of its findings node: see [`findings_kind`].
+    const FINDINGS: &'static Kind;
+
+    /// Puts the command line's accuracy in place of the config's.
+    fn set_accuracy(params: &mut Self::Params, accuracy: Accuracy);
+
+    /// Asks for nodes.
+    ///
+    /// # Errors
+    /// Parameters that can't be turned into nodes.
+    fn nodes(params: &Self::Params, nodes: &mut Nodes) -> Result<(), NodeError>;
+
+    /// The picture of the tables.
+    ///
+    /// # Errors
+    /// A table that is missing or can't be drawn.
+    fn picture(params: &Self::Params, tables: &Tables) -> Result<Picture, NodeError>;
+
+    /// The named values in the tables.
+    ///
+    /// # Errors
+    /// A table that is missing, or without the value.
+    fn values(params: &Self::Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError>;
+
+    /// The article's claims, with the evidence that the tables hold.
+    ///
+    /// # Errors
+    /// A table that is missing, or without the evidence.
+    fn claims(params: &Self::Params, tables: &Tables) -> Result<Vec<Claim>, NodeError>;
+}
+
+/// The kind of a picture node whose code is in `code`: the experiment's own file and the plot and table rooms.
+pub const fn picture_kind(name: &'static str, code: &'static [&'static str]) -> Kind {
+    Kind { name, summary: "the figure, drawn from its tables", code, measurement: false }
+}
+
+/// The kind of a findings node whose code is in `code`: the experiment's own file and the table room.
+pub const fn findings_kind(name: &'static str, code: &'static [&'static str]) -> Kind {
+    Kind { name, summary: "named values and evidence for the claims, read from the tables", code, measurement: false }
+}
+
+/// One experiment, as the command knows it.
+#[derive(Clone, Copy)]
+pub struct Experiment {
+    /// The module's name, and the `kind` of its configs.
+    pub kind: &'static str,
+    /// What it shows, in a few words.
+    pub title: &'static str,
+    /// Where it stands in the article.
+    pub place: &'static str,
+    plan: fn(&str, &ConfigSource, Option<Accuracy>) -> Result<Planned, PlanError>,
+}
+
+/// A plan, and the digest of the config it was made from (of its values: layout and comments are free).
+#[derive(Clone, Debug)]
+pub struct Planned {
+    /// The plan.
+    pub plan: Plan,
+    /// The digest of the canonical form of the config's values.
+    pub config_digest: Digest,
+}
+
+/// Why a config gives no plan.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum PlanError {
+    /// The config is wrong.
+    #[error("{0}")]
+    Config(Box<ConfigError>),
+    /// The experiment can't write down its own nodes: a defect.
+    #[error("experiment {id}: {error}")]
+    Defect {
+        /// The experiment.
+        id: String,
+        /// What went wrong.
+        error: NodeError,
+    },
+}
+
+impl Experiment {
+    /// The constant of a definition.
+    pub const fn of<D: Definition>() -> Self {
+        Self { kind: D::ID, title: D::TITLE, place: D::PLACE, plan: plan::<D> }
+    }
+
+    /// Reads a config and plans its nodes; `id` is the stem of the config's file name.
+    ///
+    /// # Errors
+    /// A wrong config, by file, line, column and key.
+    pub fn plan(
+        &self,
+        id: &str,
+        source: &ConfigSource,
+        accuracy: Option<Accuracy>,
+    ) -> Result<Planned, PlanError> {
+        (self.plan)(id, source, accuracy)
+    }
+}
+
+fn plan<D: Definition>(id: &str, source: &ConfigSource, accuracy: Option<Accuracy>) -> Result<Planned, PlanError> {
+    let mut params: D::Params =
+        config::read(&source.file, &source.text).map_err(|error| PlanError::Config(Box::new(error)))?;
+    let defect = |error: NodeError| PlanError::Defect { id: id.to_owned(), error };
+    let undescribable = |error: manifest::NotDescribable| defect(NodeError::new(error.to_string()));
+    if let Some(accuracy) = accuracy {
+        D::set_accuracy(&mut params, accuracy);
+    }
+    let mut config = Manifest { lines: manifest::describe(&params).map_err(undescribable)? };
+    config.push(manifest::Part::Kind, "", manifest::Leaf::Text(D::ID.to_owned()));
+
+    let mut nodes = Nodes::new(id);
+    D::nodes(&params, &mut nodes).map_err(defect)?;
+    let (nodes, tables) = nodes.finish();
+    let mut plan = Plan { id: id.to_owned(), config: source.clone(), nodes, exports: Vec::new() };
+    for (_, address) in &tables {
+        plan.exports.push(Export {
+            path: format!("data/{id}/{}.parquet", address.file_stem()),
+            from: address.clone(),
+            artifact: crate::effects::product::TABLE.to_owned(),
+        });
+    }
+    let readers: [(&str, &str, Node); 2] = [
+        (PICTURE_FILE, "svg", {
+            let reader = Picturing::<D> { id: id.to_owned(), params: params.clone() };
+            Node::new(Address::new(id, "picture"), reader).map_err(undescribable)?
+        }),
+        (FINDINGS_FILE, "json", {
+            Node::new(Address::new(id, FINDINGS_NODE), Finding::<D> { params }).map_err(undescribable)?
+        }),
+    ];
+    for (artifact, ending, mut node) in readers {
+        for (name, address) in &tables {
+            node = node.input(name.clone(), address, crate::effects::product::TABLE);
+        }
+        let path = if ending == "svg" { format!("{id}.svg") } else { format!("data/{id}/{FINDINGS_FILE}") };
+        plan.exports.push(Export { path, from: node.address.clone(), artifact: artifact.to_owned() });
+        plan.nodes.push(node);
+    }
+    Ok(Planned { plan, config_digest: config.key() })
+}
+
+fn read_tables(inputs: &Inputs) -> Result<Tables, NodeError> {
+    let mut tables = Tables::new();
+    for (name, file) in inputs.iter() {
+        let table =
+            Table::from_parquet(&file.bytes).map_err(|error| NodeError::new(format!("table {name}: {error}")))?;
+        tables.insert(name, table);
+    }
+    Ok(tables)
+}
+
+/// The node that draws.
+struct Picturing<D: Definition> {
+    id: String,
+    params: D::Params,
+}
+
+/// The picture names its experiment and shows its parameters, so both are leaves of its manifest.
+impl<D: Definition> Serialize for Picturing<D> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        #[derive(Serialize)]
+        struct Leaves<'a, P> {
+            id: &'a str,
+            config: &'a P,
+        }
+        Leaves { id: &self.id, config: &self.params }.serialize(serializer)
+    }
+}
+
+impl<D: Definition> Compute for Picturing<D> {
+    fn kind(&self) -> &'static Kind {
+        D::PICTURE
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        let tables = read_tables(inputs)?;
+        let mut picture = D::picture(&self.params, &tables)?;
+        picture.metadata.push(("experiment".to_owned(), self.id.clone()));
+        for line in manifest::describe(&self.params).map_err(|error| NodeError::new(error.to_string()))? {
+            picture.metadata.push((format!("config {}", line.path), line.leaf.to_string()));
+        }
+        for (name, file) in inputs.iter() {
+            picture.metadata.push((format!("table {name}"), file.logical.to_string()));
+        }
+        let bytes = crate::plot::render(&picture).map_err(|error| NodeError::new(format!("drawing: {error}")))?;
+        Ok(Product { artifacts: vec![Artifact::opaque(PICTURE_FILE, bytes)], work: Work::default() })
+    }
+}
+
+/// The node that reads values and claims off the tables.
+struct Finding<D: Definition> {
+    params: D::Params,
+}
+
+impl<D: Definition> Serialize for Finding<D> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.params.serialize(serializer)
+    }
+}
+
+impl<D: Definition> Compute for Finding<D> {
+    fn kind(&self) -> &'static Kind {
+        D::FINDINGS
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        let tables = read_tables(inputs)?;
+        let findings =
+            Findings { values: D::values(&self.params, &tables)?, claims: D::claims(&self.params, &tables)? };
+        for value in &findings.values {
+            if !(value.value.is_finite() && value.error.is_finite()) {
+                return Err(NodeError::new(format!("value {} or its error is not finite", value.name)));
+            }
+        }
+        // Two renderings of equal findings have equal bytes, so the bytes are the content.
+        let mut bytes = serde_json::to_vec_pretty(&findings).map_err(|error| NodeError::new(error.to_string()))?;
+        bytes.push(b'\n');
+        Ok(Product { artifacts: vec![Artifact::opaque(FINDINGS_FILE, bytes)], work: Work::default() })
+    }
+}
+

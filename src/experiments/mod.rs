@@ -1,0 +1,16 @@
+//! The experiments, by name. Adding one costs its file, its config and one word here.
+
+pub mod definition;
+pub mod nodes;
+
+use definition::Experiment;
+
+macro_rules! experiments {
+    ($($name:ident)*) => {
+        $(pub mod $name;)*
+        /// All experiments, in the article's order.
+        pub const ALL: &[Experiment] = &[$($name::EXPERIMENT),*];
+    };
+}
+
+experiments! { remark_3_25 }
