@@ -2,9 +2,11 @@
 
 pub mod accuracy;
 pub mod claim;
+pub mod config;
 pub mod digest;
 pub mod manifest;
 pub mod node;
 pub mod plan;
+pub mod sweep;
 pub mod value;
 pub mod work;
