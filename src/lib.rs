@@ -2,4 +2,5 @@
 
 pub mod contract;
 pub mod numerics;
+pub mod plot;
 pub mod table;

@@ -1,0 +1,21 @@
+//! Pictures: a declarative [`Picture`](picture::Picture) in, deterministic SVG bytes out. The only room that names plotters.
+//!
+//! An experiment says *what* is drawn (panels, axes, marks, each with a [`Role`](role::Role)); this room decides *how*:
+//! colours, dashes, widths, ticks, places of labels. One role keeps one look in all figures.
+//!
+//! - `picture`, `axis`, `mark`, `inset`, `role`, `label`: the data model an experiment builds.
+//! - `render`: checks the picture, lays the panels out, draws them; [`render::render`] is the one way out.
+//! - `layout`, `frame`, `ticks`, `place`, `series`, `sphere`: how.
+//! - `backend`: the plotters backend that reads plotters' integers as hundredths of a point; `svg`: the document it writes.
+//!
+//! Lengths on paper are points (1 pt = 1/72 inch) unless a name says millimetres. Coordinates that reach the page are
+//! whole hundredths of a point, so the bytes do not depend on how a platform prints floating-point numbers. This room does
+//! not know what a geodesic is, and it takes no data but the numbers it is handed.
+
+pub mod axis;
+pub mod colour;
+pub mod font;
+pub mod label;
+pub mod mark;
+pub mod picture;
+pub mod role;
