@@ -2,3 +2,5 @@
 
 pub mod elliptic;
 pub mod real;
+pub mod roots;
+pub mod ulp;
