@@ -3,3 +3,5 @@
 pub mod double_double;
 pub mod elliptic;
 pub mod real;
+pub mod roots;
+pub mod ulp;

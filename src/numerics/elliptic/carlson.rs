@@ -164,10 +164,11 @@ pub fn r_j<S: Real>(x: S, y: S, z: S, p: S) -> S {
         }
         let (rx, ry, rz, rp) = (x.sqrt(), y.sqrt(), z.sqrt(), p.sqrt());
         let lambda = rx * ry + rz * (rx + ry);
-        let d = (rp + rx) * (rp + ry) * (rp + rz);
-        // e = (p−x)(p−y)(p−z)/d², written as a product of three ratios so that nothing over- or underflows.
-        let e = ((rp - rx) / (rp + rx)) * ((rp - ry) / (rp + ry)) * ((rp - rz) / (rp + rz));
-        sum += weight / d * r_c(S::ONE, S::ONE + e);
+        let (dx, dy, dz) = (rp + rx, rp + ry, rp + rz);
+        // Carlson's 1 + e = 1 + (√p−√x)(√p−√y)(√p−√z)/d with d = (√p+√x)(√p+√y)(√p+√z) is 2√p (p + λ)/d: a quotient of
+        // positive terms, where e itself is near −1 and 1 + e would cancel (p or two of the roots small).
+        let one_plus_e = ((rp + rp) / dx) * ((p + lambda) / (dy * dz));
+        sum += weight / (dx * dy * dz) * r_c(S::ONE, one_plus_e);
         weight *= quarter;
         x = (x + lambda) * quarter;
         y = (y + lambda) * quarter;

@@ -1,3 +1,8 @@
 //! Elliptic integrals and functions, every one of them with the complementary parameter `m' = 1 − m` as an input.
 
 pub mod carlson;
+pub mod complete;
+pub mod incomplete;
+pub mod jacobi;
+#[cfg(test)]
+pub(crate) mod oracle;
