@@ -73,17 +73,15 @@ impl<M, S> Scene<M, S> {
     pub fn validate_effects(&self, supported: &[Effect]) -> Result<(), Invalid> {
         let names: Vec<&str> = supported.iter().map(|effect| effect.name()).collect();
         let accepted = format!("a list of at least one of: {}", names.join(", "));
-        if self.effects.is_empty() {
-            return Err(Invalid { key: "scene.effects".into(), found: "an empty list".into(), accepted });
-        }
+        Invalid::unless(!self.effects.is_empty(), "scene.effects", "[]", accepted.as_str())?;
         for (index, effect) in self.effects.iter().enumerate() {
             let key = format!("scene.effects[{index}]");
             if !supported.contains(effect) {
                 let found = format!("{:?}, which this experiment does not show", effect.name());
-                return Err(Invalid { key, found, accepted });
+                return Err(Invalid::new(key, found, accepted));
             }
             if self.effects[..index].contains(effect) {
-                return Err(Invalid { key, found: format!("{:?} again", effect.name()), accepted: "each once".into() });
+                return Err(Invalid::new(key, format!("{:?} again", effect.name()), "each effect once"));
             }
         }
         Ok(())
@@ -135,9 +133,7 @@ impl Inertia {
             ("C", self.c, self.c > self.b, format!("a number above B = {:?} (A < B < C)", self.b)),
         ];
         for (name, value, right, accepted) in checks {
-            if !(right && value.is_finite()) {
-                return Err(Invalid { key: format!("{prefix}.{name}"), found: format!("{value:?}"), accepted });
-            }
+            Invalid::unless(right && value.is_finite(), format!("{prefix}.{name}"), value, accepted)?;
         }
         Ok(())
     }
@@ -173,14 +169,6 @@ pub struct SpinParameters {
 
 impl Validate for SpinMetric {
     fn validate(&self) -> Result<(), Invalid> {
-        const KEY: &str = "scene.metric.spin.k";
-        self.spin.k.validate(KEY)?;
-        for (index, k) in self.spin.k.values().into_iter().enumerate() {
-            if !(k > 0.0 && k.is_finite()) {
-                let key = if self.spin.k.is_list() { format!("{KEY}[{index}]") } else { KEY.to_owned() };
-                return Err(Invalid { key, found: format!("{k:?}"), accepted: "a number above 0".into() });
-            }
-        }
-        Ok(())
+        self.spin.k.validate_each("scene.metric.spin.k", "k > 0", |k| k > 0.0)
     }
 }

@@ -13,7 +13,7 @@ use crate::contract::plan::{ConfigSource, Export, Plan};
 use crate::contract::value::{Findings, NamedValue};
 use crate::contract::work::Work;
 use crate::experiments::nodes::Nodes;
-use crate::plot::Picture;
+use crate::plot::picture::Picture;
 use crate::table::{Table, Tables};
 use serde::de::DeserializeOwned;
 use serde::{Serialize, Serializer};
@@ -27,7 +27,7 @@ pub const FINDINGS_NODE: &str = "findings";
 
 /// An experiment, as its module writes it.
 pub trait Definition: 'static {
-    /// The config's content below `kind = "…"`.
+    /// The config's content beside `kind = "…"`.
     type Params: Serialize + DeserializeOwned + Validate + Clone + Send + Sync;
 
     /// The module's name, and the `kind` of its configs.
@@ -183,7 +183,7 @@ fn read_tables(inputs: &Inputs) -> Result<Tables, NodeError> {
     for (name, file) in inputs.iter() {
         let table =
             Table::from_parquet(&file.bytes).map_err(|error| NodeError::new(format!("table {name}: {error}")))?;
-        tables.insert(name, table);
+        tables.insert(name, table).map_err(|error| NodeError::new(error.to_string()))?;
     }
     Ok(tables)
 }
@@ -221,7 +221,7 @@ impl<D: Definition> Compute for Picturing<D> {
         for (name, file) in inputs.iter() {
             picture.metadata.push((format!("table {name}"), file.logical.to_string()));
         }
-        let bytes = crate::plot::render(&picture).map_err(|error| NodeError::new(format!("drawing: {error}")))?;
+        let bytes = crate::plot::render::render(&picture).map_err(|error| NodeError::new(format!("drawing: {error}")))?;
         Ok(Product { artifacts: vec![Artifact::opaque(PICTURE_FILE, bytes)], work: Work::default() })
     }
 }
