@@ -1,6 +1,8 @@
 //! polhode
 
 pub mod contract;
+pub mod effects;
+pub mod experiments;
 pub mod numerics;
 pub mod plot;
 pub mod table;
