@@ -1,5 +1,6 @@
 //! polhode
 
+pub mod check;
 pub mod contract;
 pub mod numerics;
 pub mod table;
