@@ -1,5 +1,6 @@
 //! polhode
 
+pub mod check;
 pub mod contract;
 pub mod effects;
 pub mod experiments;

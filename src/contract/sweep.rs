@@ -110,25 +110,25 @@ impl Sweep {
     pub fn validate(&self, key: &str) -> Result<(), Invalid> {
         const MOST: usize = 10_000_000;
         match self {
-            Self::One(value) => Invalid::unless(value.is_finite(), key, value, "a finite number"),
+            Self::One(value) => Invalid::number(value.is_finite(), key, *value, "a finite number"),
             Self::List(values) => {
                 Invalid::unless(!values.is_empty(), key, "[]", "at least one value")?;
                 for (index, value) in values.iter().enumerate() {
                     let key = format!("{key}[{index}]");
-                    Invalid::unless(value.is_finite(), key.as_str(), value, "a finite number")?;
+                    Invalid::number(value.is_finite(), key.as_str(), *value, "a finite number")?;
                     let first = values[..index].iter().all(|earlier| earlier != value);
-                    Invalid::unless(first, key, value, "each value once")?;
+                    Invalid::number(first, key, *value, "each value once")?;
                 }
                 Ok(())
             }
             Self::Range(Range { from, to, count, spacing }) => {
                 let key = |end: &str| format!("{key}.{end}");
-                Invalid::unless(from.is_finite(), key("from"), from, "a finite number")?;
-                Invalid::unless(to.is_finite(), key("to"), to, "a finite number")?;
+                Invalid::number(from.is_finite(), key("from"), *from, "a finite number")?;
+                Invalid::number(to.is_finite(), key("to"), *to, "a finite number")?;
                 if *spacing == Spacing::Log {
-                    Invalid::unless(*from > 0.0, key("from"), from, "from > 0 with spacing = \"log\"")?;
+                    Invalid::number(*from > 0.0, key("from"), *from, "from > 0 with spacing = \"log\"")?;
                 }
-                Invalid::unless(from < to, key("to"), to, format!("to > from (which is {from:?})"))?;
+                Invalid::number(from < to, key("to"), *to, format!("to > from (which is {from:?})"))?;
                 let accepted = format!("a count from 2 to {MOST}");
                 Invalid::unless((2..=MOST).contains(count), key("count"), count, accepted)
             }
@@ -142,11 +142,11 @@ impl Sweep {
     pub fn validate_each(&self, key: &str, accepted: &str, accept: impl Fn(f64) -> bool) -> Result<(), Invalid> {
         self.validate(key)?;
         if let Self::Range(Range { from, to, .. }) = self {
-            Invalid::unless(accept(*from), format!("{key}.from"), from, accepted)?;
-            Invalid::unless(accept(*to), format!("{key}.to"), to, accepted)?;
+            Invalid::number(accept(*from), format!("{key}.from"), *from, accepted)?;
+            Invalid::number(accept(*to), format!("{key}.to"), *to, accepted)?;
         }
         for (index, value) in self.values().into_iter().enumerate() {
-            Invalid::unless(accept(value), self.key_of(key, index), value, accepted)?;
+            Invalid::number(accept(value), self.key_of(key, index), value, accepted)?;
         }
         Ok(())
     }

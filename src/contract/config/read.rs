@@ -5,7 +5,7 @@ use super::explain::{explain, written};
 use super::place::{Place, parent, places};
 use super::validate::{Invalid, Validate};
 use crate::contract::digest::{Digest, Framed};
-use crate::contract::manifest::{self, Part};
+use crate::contract::manifest::{self, Line};
 use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -69,22 +69,28 @@ pub fn peek_kind(file: &str, text: &str) -> Result<String, ConfigError> {
     }
 }
 
-/// The digest of what a config says: of its leaves, not of its text.
-///
-/// Comments, layout and the order of keys are free; `0.80` is `0.8`, and `1` is `1.0`.
+/// What a config says, as leaves in order of their paths: comments, layout and the order of keys are not in them; `0.80`
+/// is `0.8`, and `1` is `1.0`.
 ///
 /// # Errors
 /// A syntax error.
-pub fn digest(file: &str, text: &str) -> Result<Digest, ConfigError> {
+pub fn leaves(file: &str, text: &str) -> Result<Vec<Line>, ConfigError> {
     parse(file, text)?;
     let whole = |message: String| ConfigError::whole_file(file, message, "TOML");
     let document: toml::Value = toml::from_str(text).map_err(|error| whole(error.to_string()))?;
     let mut lines = manifest::describe(&with_floats(document)).map_err(|error| whole(error.to_string()))?;
     lines.sort_by(|a, b| a.path.cmp(&b.path));
-    let mut leaves = manifest::Manifest::default();
-    lines.into_iter().for_each(|line| leaves.push(Part::Param, line.path, line.leaf));
+    Ok(lines)
+}
+
+/// The digest of a config's [`leaves`].
+///
+/// # Errors
+/// A syntax error.
+pub fn digest(file: &str, text: &str) -> Result<Digest, ConfigError> {
+    let manifest = manifest::Manifest { lines: leaves(file, text)? };
     let mut framed = Framed::new("polhode config 1");
-    framed.field(&leaves.key().0);
+    framed.field(&manifest.key().0);
     Ok(framed.finish())
 }
 

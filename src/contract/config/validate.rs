@@ -42,6 +42,14 @@ impl Invalid {
         if holds { Ok(()) } else { Err(Self::new(key, found, accepted)) }
     }
 
+    /// As [`Invalid::unless`] for a number, shown in its shortest form: `1e-20` rather than twenty zeros.
+    ///
+    /// # Errors
+    /// The condition does not hold.
+    pub fn number(holds: bool, key: impl Into<String>, found: f64, accepted: impl Into<String>) -> Result<(), Self> {
+        Self::unless(holds, key, format_args!("{found:?}"), accepted)
+    }
+
     /// The same error seen from the table that holds the value: `k[1]` within `scene.metric.spin`.
     #[must_use]
     pub fn within(mut self, table: &str) -> Self {
