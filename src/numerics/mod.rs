@@ -1,4 +1,7 @@
 //! Pure mathematics on floating-point numbers. Knows no geometry and no files.
 
+pub mod counts;
 pub mod elliptic;
+pub mod polynomial_roots;
 pub mod real;
+pub mod taylor;
