@@ -1,7 +1,10 @@
 //! Pure mathematics on floating-point numbers. Knows no geometry and no files.
 
+pub mod counts;
 pub mod double_double;
 pub mod elliptic;
+pub mod polynomial_roots;
 pub mod real;
 pub mod roots;
+pub mod taylor;
 pub mod ulp;

@@ -1,0 +1,3 @@
+//! The Serret-Andoyer metric (article, section 3).
+
+pub mod flow;

@@ -1,0 +1,431 @@
+//! Real roots of a polynomial on an interval, none skipped: Bernstein form, Descartes' rule, bisection, then Newton.
+//!
+//! On `[0, 1]` a polynomial is written in Bernstein form; the number of sign changes of its coefficients bounds the
+//! number of roots inside (Descartes), and the bound is exact when it is 0 or 1. An interval with more is halved by de
+//! Casteljau's algorithm. Coefficients known only up to `noise` are counted with either sign, so an interval is left
+//! only when no polynomial within the noise has a root there; where all coefficients drown in the noise the piece is part
+//! of a *cluster*: a multiple root, or several roots that the data can't tell apart. A root of multiplicity m blurs into
+//! a cluster of width `(noise/|p⁽ᵐ⁾|)^(1/m)`; its multiplicity is the number of sign changes on a slightly wider interval
+//! (Obreshkoff: at least the number of roots in a disc about it, complex neighbours included).
+//!
+//! Sources: G. E. Collins and A. G. Akritas (1976); A. Eigenwillig, *Real root isolation for exact and approximate
+//! polynomials using Descartes' rule of signs* (2008). Not known here: where the polynomial comes from.
+
+use crate::numerics::real::Real;
+use std::ops::ControlFlow;
+
+/// Largest number of coefficients: the order of the longest series and one.
+pub const MAX_COEFFICIENTS: usize = 40;
+
+/// Halvings after which a piece counts as a point: the unit interval has no finer `f64` structure beside 1.
+const MAX_DEPTH: usize = 60;
+
+/// Newton or bisection steps of a refinement: bisection alone needs one a bit.
+const MAX_REFINEMENTS: usize = 200;
+
+type Coefficients<S> = [S; MAX_COEFFICIENTS];
+
+/// A root, or a cluster of roots that the noise does not separate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RootCluster<S> {
+    /// Lower end of the interval in which the polynomial can't be told from zero.
+    pub lower: S,
+    /// Upper end.
+    pub upper: S,
+    /// The root: the sign change if the multiplicity is odd, the point closest to zero if it is even.
+    pub root: S,
+    /// Number of roots in the cluster, complex neighbours included; 1 for a simple root.
+    pub multiplicity: usize,
+}
+
+/// Visits the roots of `Σ cₖ uᵏ` on `0 ≤ u ≤ 1` in increasing order, until the visitor breaks.
+///
+/// `noise ≥ 0` bounds the error of the polynomial's values on the interval; the rounding of the algorithm itself is
+/// added. Guarantee: every root of every polynomial within the noise lies in one of the clusters. Special cases: a
+/// polynomial that is zero within the noise is one cluster, the whole interval. Domain: at most
+/// [`MAX_COEFFICIENTS`] coefficients (more are ignored), all finite (else nothing is visited).
+pub fn visit_unit_interval_roots<S: Real>(
+    coefficients: &[S],
+    noise: S,
+    mut visit: impl FnMut(RootCluster<S>) -> ControlFlow<()>,
+) -> ControlFlow<()> {
+    let count = coefficients.len().min(MAX_COEFFICIENTS);
+    if count == 0 || coefficients.iter().any(|c| !c.is_finite()) {
+        return ControlFlow::Continue(());
+    }
+    let power = &coefficients[..count];
+    let bernstein = to_bernstein(power);
+    // De Casteljau averages: each level adds half an ε of the largest coefficient at most.
+    let largest = bernstein[..count].iter().fold(S::ZERO, |m, b| m.max(b.abs()));
+    let noise = noise + S::from_f64(4.0) * S::EPSILON * largest;
+    let mut search = Search { power, bernstein, count, noise, cluster: None, visit: &mut visit };
+    search.descend(&bernstein, S::ZERO, S::ONE, 0)?;
+    search.close_cluster()
+}
+
+/// The roots of `Σ cₖ tᵏ` on `lower ≤ t ≤ upper`, in increasing order; `noise` as in [`visit_unit_interval_roots`].
+pub fn real_roots<S: Real>(coefficients: &[S], lower: S, upper: S, noise: S) -> Vec<RootCluster<S>> {
+    let count = coefficients.len().min(MAX_COEFFICIENTS);
+    let mut shifted = [S::ZERO; MAX_COEFFICIENTS];
+    shifted[..count].copy_from_slice(&coefficients[..count]);
+    // Taylor shift to `lower` (Horner's scheme repeated), then t = lower + u·width.
+    for start in 0..count {
+        for k in (start..count.saturating_sub(1)).rev() {
+            shifted[k] = shifted[k] + shifted[k + 1] * lower;
+        }
+    }
+    let width = upper - lower;
+    let mut scale = S::ONE;
+    for c in shifted[..count].iter_mut() {
+        *c *= scale;
+        scale *= width;
+    }
+    let mut roots = Vec::new();
+    let _ = visit_unit_interval_roots(&shifted[..count], noise, |cluster| {
+        let at = |u: S| lower + u * width;
+        roots.push(RootCluster {
+            lower: at(cluster.lower),
+            upper: at(cluster.upper),
+            root: at(cluster.root),
+            multiplicity: cluster.multiplicity,
+        });
+        ControlFlow::Continue(())
+    });
+    roots
+}
+
+/// `b_j = Σ_{k ≤ j} C(j,k)/C(n,k) a_k`.
+fn to_bernstein<S: Real>(power: &[S]) -> Coefficients<S> {
+    let n = power.len() - 1;
+    // Differences scheme: start from a_k / C(n, k), then sum k times (the transpose of Pascal's triangle).
+    let mut b = [S::ZERO; MAX_COEFFICIENTS];
+    let mut binomial = S::ONE;
+    for k in 0..=n {
+        b[k] = power[k] / binomial;
+        binomial = binomial * S::from_f64((n - k) as f64) / S::from_f64((k + 1) as f64);
+    }
+    for level in 1..=n {
+        for j in (level..=n).rev() {
+            b[j] = b[j] + b[j - 1];
+        }
+    }
+    b
+}
+
+fn horner<S: Real>(power: &[S], u: S) -> (S, S) {
+    let (mut value, mut slope) = (S::ZERO, S::ZERO);
+    for &c in power.iter().rev() {
+        slope = slope * u + value;
+        value = value * u + c;
+    }
+    (value, slope)
+}
+
+/// A coefficient's sign, or 0 when it drowns in the noise.
+fn sign<S: Real>(b: S, noise: S) -> i32 {
+    if b.abs() <= noise {
+        0
+    } else if b > S::ZERO {
+        1
+    } else {
+        -1
+    }
+}
+
+/// The largest number of sign changes that coefficients with unknown signs allow, and the number without them.
+fn sign_changes<S: Real>(b: &[S], noise: S) -> (usize, usize) {
+    let (mut largest, mut smallest) = (0, 0);
+    let (mut previous, mut unknown) = (0, 0);
+    for &c in b {
+        let s = sign(c, noise);
+        if s == 0 {
+            unknown += 1;
+            continue;
+        }
+        if previous == 0 {
+            largest += unknown;
+        } else if s == previous {
+            largest += (unknown + 1) / 2 * 2;
+        } else {
+            largest += unknown / 2 * 2 + 1;
+            smallest += 1;
+        }
+        (previous, unknown) = (s, 0);
+    }
+    (largest + unknown, smallest)
+}
+
+/// Both halves of a Bernstein form.
+fn halve<S: Real>(b: &Coefficients<S>, count: usize) -> (Coefficients<S>, Coefficients<S>) {
+    split(b, count, S::from_f64(0.5))
+}
+
+/// De Casteljau's split at a fraction of the interval (outside of 0..1 it extrapolates).
+fn split<S: Real>(b: &Coefficients<S>, count: usize, at: S) -> (Coefficients<S>, Coefficients<S>) {
+    let (mut left, mut right) = ([S::ZERO; MAX_COEFFICIENTS], *b);
+    for level in 0..count {
+        left[level] = right[0];
+        for j in 0..count - 1 - level {
+            right[j] = right[j] + (right[j + 1] - right[j]) * at;
+        }
+    }
+    (left, right)
+}
+
+struct Search<'a, S: Real, V> {
+    power: &'a [S],
+    bernstein: Coefficients<S>,
+    count: usize,
+    noise: S,
+    /// The piece being collected: lower and upper end.
+    cluster: Option<(S, S)>,
+    visit: &'a mut V,
+}
+
+impl<S: Real, V: FnMut(RootCluster<S>) -> ControlFlow<()>> Search<'_, S, V> {
+    fn descend(&mut self, b: &Coefficients<S>, lower: S, width: S, depth: usize) -> ControlFlow<()> {
+        let b_used = &b[..self.count];
+        let (largest, _) = sign_changes(b_used, self.noise);
+        let (first, last) = (sign(b_used[0], self.noise), sign(b_used[self.count - 1], self.noise));
+        let all_unknown = b_used.iter().all(|&c| sign(c, self.noise) == 0);
+        if !all_unknown && largest == 0 {
+            return ControlFlow::Continue(());
+        }
+        if all_unknown || depth >= MAX_DEPTH {
+            let upper = lower + width;
+            match &mut self.cluster {
+                Some((_, end)) if *end == lower => *end = upper,
+                _ => {
+                    self.close_cluster()?;
+                    self.cluster = Some((lower, upper));
+                }
+            }
+            return ControlFlow::Continue(());
+        }
+        if largest == 1 && first * last < 0 {
+            self.close_cluster()?;
+            let (root, blur) = self.refine(lower, lower + width, first);
+            let (below, above) = ((root - blur).max(lower), (root + blur).min(lower + width));
+            return (self.visit)(RootCluster { lower: below, upper: above, root, multiplicity: 1 });
+        }
+        let (left, right) = halve(b, self.count);
+        let half = width * S::from_f64(0.5);
+        self.descend(&left, lower, half, depth + 1)?;
+        self.descend(&right, lower + half, half, depth + 1)
+    }
+
+    /// The sign change between the ends of a bracket by Newton's method kept inside by bisection, and the distance over
+    /// which the noise may move it. `sign_below` is the sign at the lower end.
+    fn refine(&self, mut lower: S, mut upper: S, sign_below: i32) -> (S, S) {
+        let half = S::from_f64(0.5);
+        let mut root = (lower + upper) * half;
+        let (mut value, mut slope) = horner(self.power, root);
+        for _ in 0..MAX_REFINEMENTS {
+            if value == S::ZERO {
+                break;
+            }
+            if (value > S::ZERO) == (sign_below > 0) {
+                lower = root;
+            } else {
+                upper = root;
+            }
+            let newton = root - value / slope;
+            let next = if newton > lower && newton < upper { newton } else { (lower + upper) * half };
+            if next == root || next <= lower && next >= upper || (next - root).abs() <= S::EPSILON * half * next.abs() {
+                root = next;
+                break;
+            }
+            root = next;
+            (value, slope) = horner(self.power, root);
+        }
+        let slope = horner(self.power, root).1.abs();
+        (root, if slope > S::ZERO { self.noise / slope } else { S::ZERO })
+    }
+
+    /// Judges the cluster collected so far and hands it over.
+    fn close_cluster(&mut self) -> ControlFlow<()> {
+        let Some((lower, upper)) = self.cluster.take() else { return ControlFlow::Continue(()) };
+        let half = S::from_f64(0.5);
+        let width = upper - lower;
+        // Widen until both ends stand out of the noise; a cluster that fills the interval stays as it is.
+        let mut margin = width;
+        let mut judged = None;
+        while margin <= S::ONE {
+            let (a, b) = (lower - margin, upper + margin);
+            let (_, from_a) = split(&self.bernstein, self.count, a);
+            let (piece, _) = split(&from_a, self.count, (b - a) / (S::ONE - a));
+            let used = &piece[..self.count];
+            let level = self.noise * S::from_f64(2.0);
+            let (first, last) = (sign(used[0], level), sign(used[self.count - 1], level));
+            if first != 0 && last != 0 {
+                judged = Some((a, b, first, last, sign_changes(used, self.noise).1));
+                break;
+            }
+            margin = margin * S::from_f64(2.0);
+        }
+        let Some((a, b, first, last, changes)) = judged else {
+            let root = (lower + upper) * half;
+            return (self.visit)(RootCluster { lower, upper, root, multiplicity: self.count - 1 });
+        };
+        let (root, multiplicity) = if first == last {
+            (self.turning_point(a, b, lower, upper), changes.max(2))
+        } else {
+            (self.refine(a, b, first).0, changes.max(1))
+        };
+        (self.visit)(RootCluster { lower, upper, root: root.max(S::ZERO).min(S::ONE), multiplicity })
+    }
+
+    /// Where the derivative changes sign between `a` and `b`; the middle of the cluster when it does not.
+    fn turning_point(&self, a: S, b: S, lower: S, upper: S) -> S {
+        let half = S::from_f64(0.5);
+        let (mut a, mut b) = (a, b);
+        let rising = horner(self.power, a).1 > S::ZERO;
+        if rising == (horner(self.power, b).1 > S::ZERO) {
+            return (lower + upper) * half;
+        }
+        for _ in 0..MAX_REFINEMENTS {
+            let middle = (a + b) * half;
+            if middle <= a || middle >= b {
+                break;
+            }
+            if (horner(self.power, middle).1 > S::ZERO) == rising {
+                a = middle;
+            } else {
+                b = middle;
+            }
+        }
+        (a + b) * half
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A small generator (SplitMix64): the same numbers in every run.
+    struct Random(u64);
+    impl Random {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+            let mut z = self.0;
+            z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+            ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        }
+    }
+
+    /// Coefficients of Π (t − r) · Π ((t − x)² + y²).
+    fn polynomial(real: &[f64], complex: &[(f64, f64)]) -> Vec<f64> {
+        let mut c = vec![1.0];
+        let mut times = |factor: &[f64]| {
+            let mut product = vec![0.0; c.len() + factor.len() - 1];
+            for (i, a) in c.iter().enumerate() {
+                for (j, b) in factor.iter().enumerate() {
+                    product[i + j] += a * b;
+                }
+            }
+            c = product;
+        };
+        real.iter().for_each(|r| times(&[-r, 1.0]));
+        complex.iter().for_each(|(x, y)| times(&[x * x + y * y, -2.0 * x, 1.0]));
+        c
+    }
+
+    #[test]
+    fn random_separated_roots_are_all_found() {
+        // Oracle: the roots the polynomial was built from. Roots at least 0.05 apart in [0, 1], up to 6 real ones inside,
+        // others outside, complex pairs anywhere: condition |c|(1)/|p'| is computed, tolerance in its units.
+        let mut random = Random(1);
+        for trial in 0..2000 {
+            let mut inside: Vec<f64> = Vec::new();
+            for _ in 0..(random.next() * 7.0) as usize {
+                let r = random.next();
+                if inside.iter().all(|s: &f64| (s - r).abs() > 0.05) && r > 0.01 && r < 0.99 {
+                    inside.push(r);
+                }
+            }
+            inside.sort_by(f64::total_cmp);
+            let mut real = inside.clone();
+            (0..3).for_each(|_| real.push(1.3 + 2.0 * random.next()));
+            real.push(-0.3 - random.next());
+            let complex: Vec<_> = (0..3).map(|_| (random.next() * 2.0 - 0.5, 0.05 + random.next())).collect();
+            let c = polynomial(&real, &complex);
+            let found = real_roots(&c, 0.0, 1.0, 0.0);
+            assert_eq!(found.len(), inside.len(), "trial {trial}: {inside:?} {found:?}");
+            let size: f64 = c.iter().map(|c| c.abs()).sum();
+            for (cluster, exact) in found.iter().zip(&inside) {
+                let slope = horner(&c, *exact).1.abs();
+                let tolerance = 40.0 * f64::EPSILON * size / slope;
+                assert!((cluster.root - exact).abs() <= tolerance, "trial {trial}: {cluster:?} {exact}");
+                assert_eq!(cluster.multiplicity, 1);
+            }
+        }
+    }
+
+    #[test]
+    fn multiple_roots_are_clusters_of_the_right_width() {
+        // Oracle: construction. The centre moves by less than (C ε/c_m)^(1/m), C = 100 for the sizes met here.
+        let mut random = Random(2);
+        for trial in 0..500 {
+            let multiplicity = 2 + trial % 3;
+            let r = 0.1 + 0.8 * random.next();
+            let mut real = vec![r; multiplicity];
+            real.push(if r > 0.5 { r - 0.35 } else { r + 0.35 });
+            real.push(1.5 + random.next());
+            let c = polynomial(&real, &[(0.5, 1.0)]);
+            let found = real_roots(&c, 0.0, 1.0, 0.0);
+            assert_eq!(found.len(), 2, "trial {trial}: {real:?} {found:?}");
+            let cluster = found.iter().min_by(|a, b| (a.root - r).abs().total_cmp(&(b.root - r).abs())).unwrap();
+            assert_eq!(cluster.multiplicity, multiplicity, "trial {trial}: {cluster:?}");
+            let size: f64 = c.iter().map(|c| c.abs()).sum();
+            // c_m = p^(m)/m! at r, from the factors that are not zero there.
+            let c_m = (r - real[multiplicity]) * (r - real[multiplicity + 1]) * ((r - 0.5) * (r - 0.5) + 1.0);
+            let width = libm::pow(100.0 * f64::EPSILON * size / c_m.abs(), 1.0 / multiplicity as f64);
+            assert!(cluster.upper - cluster.lower < 2.0 * width, "trial {trial}: {cluster:?} {width}");
+            assert!(cluster.lower - width <= r && r <= cluster.upper + width, "trial {trial}: {cluster:?} {r}");
+            assert!((cluster.root - r).abs() <= width, "trial {trial}: {cluster:?} {r}");
+        }
+    }
+
+    #[test]
+    fn close_pairs_are_two_roots_until_the_noise_joins_them() {
+        // (t − ½)² = gap²/4: separated by the noise when gap² ≫ 40 ε, one cluster of two below.
+        for (gap, expected) in [(1e-3, 2), (1e-5, 2), (1e-6, 2), (1e-9, 1), (0.0, 1)] {
+            let c = polynomial(&[0.5 - gap / 2.0, 0.5 + gap / 2.0, 3.0], &[]);
+            let found = real_roots(&c, 0.0, 1.0, 0.0);
+            assert_eq!(found.len(), expected, "{gap}: {found:?}");
+            assert_eq!(found.iter().map(|f| f.multiplicity).sum::<usize>(), 2, "{gap}: {found:?}");
+            assert!(found.iter().all(|f| (f.root - 0.5).abs() <= gap / 2.0 + 3e-8), "{gap}: {found:?}");
+        }
+        // A complex pair just beside the axis is no root, unless the noise says it may be one.
+        let c = polynomial(&[], &[(0.4, 1e-5)]);
+        assert_eq!(real_roots(&c, 0.0, 1.0, 0.0), vec![]);
+        assert_eq!(real_roots(&c, 0.0, 1.0, 1e-9).len(), 1);
+    }
+
+    #[test]
+    fn roots_at_the_ends_and_at_halves_are_found_once() {
+        let c = polynomial(&[0.0, 0.25, 0.5, 0.75, 1.0], &[]);
+        let found = real_roots(&c, 0.0, 1.0, 0.0);
+        assert_eq!(found.len(), 5, "{found:?}");
+        for (cluster, exact) in found.iter().zip([0.0, 0.25, 0.5, 0.75, 1.0]) {
+            // |c| sums to 4.9 and the smallest slope is 1/64·… = 0.023: 300 ε.
+            assert!((cluster.root - exact).abs() < 300.0 * f64::EPSILON, "{cluster:?}");
+        }
+        assert_eq!(real_roots(&[0.0, 0.0], 0.0, 1.0, 0.0).len(), 1);
+        assert_eq!(real_roots::<f64>(&[], 0.0, 1.0, 0.0), vec![]);
+        assert_eq!(real_roots(&[f64::NAN, 1.0], 0.0, 1.0, 0.0), vec![]);
+        assert_eq!(real_roots(&[-1.0, 1.0], 0.0, 0.5, 0.0), vec![]);
+    }
+
+    #[test]
+    fn the_visitor_may_stop() {
+        let c = polynomial(&[0.2, 0.5, 0.7], &[]);
+        let mut seen = 0;
+        let flow = visit_unit_interval_roots(&c, 0.0, |_| {
+            seen += 1;
+            ControlFlow::Break(())
+        });
+        assert!(flow.is_break() && seen == 1);
+    }
+}

@@ -1,0 +1,264 @@
+//! The loop over steps: from a start over a span of time, forward or backward, with observers looking at each step.
+//!
+//! State and time are sums of many increments and are kept compensated (Knuth's two-sum: the rounding error of each
+//! addition is carried to the next), so what accumulates is the rounding inside the steps' series alone. No step
+//! allocates. An observer sees each step's polynomial, may evaluate it anywhere inside, and may stop the integration;
+//! observers are types, compiled in, and `()` is the one that costs nothing.
+
+use crate::numerics::counts::Work;
+use crate::numerics::real::Real;
+use crate::numerics::taylor::flow::{Elements, Flow};
+use crate::numerics::taylor::step::{ErrorNorm, Jet, horner_increment, order_for};
+use std::ops::ControlFlow;
+
+/// Steps after which an integration gives up unless told otherwise. 1e4 periods of the article's problems take some
+/// 40 steps each; more than this is a wrong request rather than a long one.
+pub const DEFAULT_MAXIMUM_STEPS: u64 = 1_000_000;
+
+/// What is asked of an integration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// Relative error per step. Requests below the scalar's ε are taken as ε: the rest is rounding.
+    pub tolerance: f64,
+    /// Steps after which to give up.
+    pub maximum_steps: u64,
+    /// Which components decide the step length.
+    pub norm: ErrorNorm,
+}
+
+impl Settings {
+    /// This tolerance, [`DEFAULT_MAXIMUM_STEPS`], columns steering too.
+    pub fn new(tolerance: f64) -> Self {
+        Settings { tolerance, maximum_steps: DEFAULT_MAXIMUM_STEPS, norm: ErrorNorm::WithColumns }
+    }
+}
+
+/// Why an integration could not be carried out.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum IntegrationError {
+    /// More steps than allowed.
+    #[error("no end after {steps} steps, at time {time} (asked: up to {end}); state {state:?}")]
+    StepLimit {
+        /// Steps taken.
+        steps: u64,
+        /// Time reached.
+        time: f64,
+        /// Time asked for.
+        end: f64,
+        /// State reached.
+        state: Vec<f64>,
+    },
+    /// A component became infinite or "not a number".
+    #[error("the solution is not finite at time {time}; state {state:?}")]
+    NotFinite {
+        /// Time of the last finite state.
+        time: f64,
+        /// The state there.
+        state: Vec<f64>,
+    },
+    /// The steps became too short to move the time: the solution runs into a singularity.
+    #[error("steps of {length} no longer advance the time {time}; state {state:?}")]
+    StepTooShort {
+        /// Time reached.
+        time: f64,
+        /// Length of the step refused.
+        length: f64,
+        /// State reached.
+        state: Vec<f64>,
+    },
+    /// A tolerance that is not a positive number, or a time that is not finite.
+    #[error("the {name} must be finite{}, not {value}", if *.name == "tolerance" { " and positive" } else { "" })]
+    Request {
+        /// Which argument.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+}
+
+/// A number kept as the sum of a rounded value and a small rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compensated<S> {
+    /// The sum, rounded.
+    pub value: S,
+    /// What rounding left out.
+    pub rest: S,
+}
+
+impl<S: Real> Compensated<S> {
+    /// A value with nothing left out.
+    pub fn new(value: S) -> Self {
+        Compensated { value, rest: S::ZERO }
+    }
+
+    /// Adds an increment: `value` becomes the rounded sum, `rest` the rounding error (Knuth's two-sum, exact).
+    #[inline(always)]
+    pub fn add(&mut self, increment: S) {
+        let increment = increment + self.rest;
+        let sum = self.value + increment;
+        let virtual_increment = sum - self.value;
+        self.rest = (self.value - (sum - virtual_increment)) + (increment - virtual_increment);
+        self.value = sum;
+    }
+
+    /// The sum with an offset, rounded once.
+    #[inline(always)]
+    pub fn plus(&self, offset: S) -> S {
+        self.value + (self.rest + offset)
+    }
+}
+
+/// One step as an observer sees it.
+pub struct Step<'a, S: Real, F: Flow<S>> {
+    /// The flow.
+    pub flow: &'a F,
+    /// Series about the start of the step.
+    pub jet: &'a Jet<S, F>,
+    /// Time at the start.
+    pub start: Compensated<S>,
+    /// Signed length.
+    pub length: S,
+    /// Whether this is the first step.
+    pub first: bool,
+    rest: &'a F::State<S>,
+}
+
+impl<S: Real, F: Flow<S>> Step<'_, S, F> {
+    /// Time at an offset from the start.
+    pub fn time(&self, offset: S) -> S {
+        self.start.plus(offset)
+    }
+
+    /// The state at an offset between zero and `length`.
+    pub fn state(&self, offset: S) -> F::State<S> {
+        let mut state = F::State::<S>::filled(S::ZERO);
+        for i in 0..<F::State<S> as Elements<S>>::LEN {
+            let series = self.jet.state.get(i);
+            *state.get_mut(i) = series[0] + (*self.rest.get(i) + horner_increment(series, self.jet.order(), offset));
+        }
+        state
+    }
+}
+
+/// What looks at each step of an integration.
+pub trait Observer<S: Real, F: Flow<S>> {
+    /// Called after each step's series is known and before the state moves on; `Break` ends the integration there.
+    fn observe(&mut self, step: &Step<'_, S, F>, work: &mut Work) -> ControlFlow<()>;
+    /// Called once at the end of the span (not after a `Break`).
+    fn finish(&mut self, _work: &mut Work) {}
+}
+
+/// Looks at nothing.
+impl<S: Real, F: Flow<S>> Observer<S, F> for () {
+    #[inline(always)]
+    fn observe(&mut self, _: &Step<'_, S, F>, _: &mut Work) -> ControlFlow<()> {
+        ControlFlow::Continue(())
+    }
+}
+
+/// Both look; the first to stop stops.
+impl<S: Real, F: Flow<S>, A: Observer<S, F>, B: Observer<S, F>> Observer<S, F> for (A, B) {
+    fn observe(&mut self, step: &Step<'_, S, F>, work: &mut Work) -> ControlFlow<()> {
+        let first = self.0.observe(step, work);
+        let second = self.1.observe(step, work);
+        if first.is_break() { first } else { second }
+    }
+    fn finish(&mut self, work: &mut Work) {
+        self.0.finish(work);
+        self.1.finish(work);
+    }
+}
+
+/// Where an integration ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Arrival<S, State> {
+    /// The end of the span, or the start of the step in which an observer stopped.
+    pub time: S,
+    /// The state there.
+    pub state: State,
+    /// Whether an observer stopped it.
+    pub stopped: bool,
+    /// What was done.
+    pub work: Work,
+}
+
+/// Integrates `x' = f(x)` from `initial` at `span.0` to `span.1` (later or earlier).
+///
+/// Guarantee: each step's truncation error is below `tolerance` of the flow's scales; at `tolerance = ε` rounding alone
+/// is left, a few ε times the growth of the flow. Special case: an empty span returns the initial state.
+///
+/// # Errors
+/// [`IntegrationError`], with time and state.
+pub fn integrate<S: Real, F: Flow<S>, O: Observer<S, F>>(
+    flow: &F,
+    initial: &F::State<S>,
+    span: (S, S),
+    settings: &Settings,
+    observer: &mut O,
+) -> Result<Arrival<S, F::State<S>>, IntegrationError> {
+    let dimension = <F::State<S> as Elements<S>>::LEN;
+    check_request(span, settings)?;
+    let mut jet = Jet::<S, F>::new(order_for(settings.tolerance.max(S::EPSILON.to_f64())));
+    let order = jet.order();
+    let mut work = Work { state_dimension: dimension as u64, ..Work::default() };
+    let (mut time, mut state) = (Compensated::new(span.0), *initial);
+    let mut rest = F::State::<S>::filled(S::ZERO);
+    let direction = if span.1 < span.0 { -S::ONE } else { S::ONE };
+    loop {
+        let remaining = (span.1 - time.value) - time.rest;
+        if remaining * direction <= S::ZERO {
+            observer.finish(&mut work);
+            return Ok(Arrival { time: span.1, state, stopped: false, work });
+        }
+        if work.steps >= settings.maximum_steps {
+            let (time, end, state) = (time.value.to_f64(), span.1.to_f64(), as_numbers::<S, F>(&state));
+            return Err(IntegrationError::StepLimit { steps: work.steps, time, end, state });
+        }
+        jet.expand(flow, &state);
+        let mut length = S::from_f64(jet.step_length(flow, &state, settings.norm));
+        // "Not less than" and not "more than": false for NaN, which falls through to the error below.
+        let last = length >= remaining.abs();
+        length = if last { remaining } else { length * direction };
+        if !length.is_finite() {
+            return Err(IntegrationError::NotFinite { time: time.value.to_f64(), state: as_numbers::<S, F>(&state) });
+        }
+        if !last && time.value + length == time.value {
+            let (time, length, state) = (time.value.to_f64(), length.to_f64(), as_numbers::<S, F>(&state));
+            return Err(IntegrationError::StepTooShort { time, length, state });
+        }
+        work.steps += 1;
+        work.flow_evaluations += order as u64;
+        work.tangent_evaluations += (order * F::COLUMNS) as u64;
+        let step = Step { flow, jet: &jet, start: time, length, first: work.steps == 1, rest: &rest };
+        if observer.observe(&step, &mut work).is_break() {
+            return Ok(Arrival { time: time.plus(S::ZERO), state, stopped: true, work });
+        }
+        for i in 0..dimension {
+            let mut sum = Compensated { value: *state.get(i), rest: *rest.get(i) };
+            sum.add(horner_increment(jet.state.get(i), order, length));
+            *state.get_mut(i) = sum.value;
+            *rest.get_mut(i) = sum.rest;
+        }
+        if last {
+            time = Compensated::new(span.1);
+        } else {
+            time.add(length);
+        }
+    }
+}
+
+fn check_request<S: Real>(span: (S, S), settings: &Settings) -> Result<(), IntegrationError> {
+    for (name, value) in [("start of the time span", span.0), ("end of the time span", span.1)] {
+        if !value.is_finite() {
+            return Err(IntegrationError::Request { name, value: value.to_f64() });
+        }
+    }
+    if !(settings.tolerance > 0.0 && settings.tolerance.is_finite()) {
+        return Err(IntegrationError::Request { name: "tolerance", value: settings.tolerance });
+    }
+    Ok(())
+}
+
+fn as_numbers<S: Real, F: Flow<S>>(state: &F::State<S>) -> Vec<f64> {
+    (0..<F::State<S> as Elements<S>>::LEN).map(|i| state.get(i).to_f64()).collect()
+}

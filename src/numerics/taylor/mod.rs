@@ -1,0 +1,21 @@
+//! Power-series (Taylor) integration of polynomial flows.
+//!
+//! The Taylor coefficients of a solution of `x' = f(x)` with polynomial `f` follow order by order from Cauchy products;
+//! a step sums the series inside a fixed fraction of its radius of convergence, at an order that the requested error
+//! alone decides. The system that is integrated is assembled at compile time from types, so what is not asked for has
+//! no state, no equation and no cost:
+//!
+//! - [`flow`]: what a flow and its tangent columns (Jacobi fields) are; Cauchy products; type composition;
+//! - [`step`](mod@step): order and step length from the requested error, the coefficients of one step;
+//! - [`integrator`]: the loop over steps, compensated sums, errors as values, observers;
+//! - [`dense`]: states between steps, streamed or kept;
+//! - [`events`]: every root of a function of the state, by isolating the roots of the step's polynomial.
+//!
+//! Sources: À. Jorba and M. Zou, *A software package for the numerical integration of ODEs by means of high-order Taylor
+//! methods*, Experimental Mathematics 14 (2005) 99-117. Not known here: any geometry.
+
+pub mod dense;
+pub mod events;
+pub mod flow;
+pub mod integrator;
+pub mod step;
