@@ -2,15 +2,15 @@
 
 pub mod definition;
 pub mod nodes;
-
-use definition::Experiment;
+#[cfg(test)]
+pub mod preview;
 
 macro_rules! experiments {
     ($($name:ident)*) => {
         $(pub mod $name;)*
         /// All experiments, in the article's order.
-        pub const ALL: &[Experiment] = &[$($name::EXPERIMENT),*];
+        pub const ALL: &[definition::Experiment] = &[$($name::EXPERIMENT),*];
     };
 }
 
-experiments! { remark_3_25 }
+experiments! {}

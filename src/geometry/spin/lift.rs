@@ -251,12 +251,7 @@ pub fn equator_crossings<S: Real>(
 ///
 /// # Errors
 /// [`LiftError`]: outside the domain, integration failed.
-pub fn trajectory<S: Real>(
-    k: S,
-    p_theta: S,
-    times: &[S],
-    tolerance: f64,
-) -> Result<(Vec<[S; 3]>, Work), LiftError> {
+pub fn trajectory<S: Real>(k: S, p_theta: S, times: &[S], tolerance: f64) -> Result<(Vec<[S; 3]>, Work), LiftError> {
     let (flow, start) = posed(k, p_theta)?;
     let (states, work) = sample(&flow, &start, S::ZERO, times, &Settings::new(tolerance))?;
     Ok((states.into_iter().map(|[r1, r2, r3, ..]| [r1, r2, r3]).collect(), work))
