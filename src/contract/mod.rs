@@ -2,9 +2,12 @@
 
 pub mod accuracy;
 pub mod claim;
+pub mod code;
 pub mod digest;
 pub mod manifest;
 pub mod node;
 pub mod plan;
+#[cfg(test)]
+pub mod tokens;
 pub mod value;
 pub mod work;
