@@ -6,5 +6,6 @@ pub mod effects;
 pub mod experiments;
 pub mod geometry;
 pub mod numerics;
+pub mod pipeline;
 pub mod plot;
 pub mod table;

@@ -6,6 +6,7 @@
 
 use super::digest::{Digest, Framed};
 use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
 use std::fmt;
 
 /// Which part of the identity a leaf belongs to.
@@ -144,16 +145,7 @@ impl Manifest {
 
     /// The key: the digest of the framed lines, in canonical order (part, then path).
     pub fn key(&self) -> Digest {
-        let mut order: Vec<&Line> = self.lines.iter().collect();
-        order.sort_by(|a, b| (a.part, &a.path).cmp(&(b.part, &b.path)));
-        let mut framed = Framed::new("polhode manifest 1");
-        for line in order {
-            framed.field(line.part.name().as_bytes());
-            framed.field(line.path.as_bytes());
-            framed.field(&[line.leaf.tag()]);
-            framed.field(&line.leaf.payload());
-        }
-        framed.finish()
+        key_of(&self.lines)
     }
 
     /// The leaf at a place, if it is there.
@@ -162,25 +154,44 @@ impl Manifest {
     }
 
     /// The leaves that differ: `(part, path, old, new)`; empty exactly when the keys agree.
-    pub fn changes<'a>(&'a self, new: &'a Self) -> Vec<Change> {
+    pub fn changes(&self, new: &Self) -> Vec<Change> {
+        let (before, after) = (self.by_place(), new.by_place());
         let mut changes = Vec::new();
         for line in &self.lines {
-            let now = new.get(line.part, &line.path);
+            let now = after.get(&(line.part, line.path.as_str())).copied();
             if now != Some(&line.leaf) {
                 changes.push(Change::of(line.part, &line.path, Some(&line.leaf), now));
             }
         }
         for line in &new.lines {
-            if self.get(line.part, &line.path).is_none() {
+            if !before.contains_key(&(line.part, line.path.as_str())) {
                 changes.push(Change::of(line.part, &line.path, None, Some(&line.leaf)));
             }
         }
         changes
     }
+
+    fn by_place(&self) -> HashMap<(Part, &str), &Leaf> {
+        self.lines.iter().map(|line| ((line.part, line.path.as_str()), &line.leaf)).collect()
+    }
+}
+
+/// The key of the manifest that has these lines, without building it.
+pub fn key_of<'a>(lines: impl IntoIterator<Item = &'a Line>) -> Digest {
+    let mut order: Vec<&Line> = lines.into_iter().collect();
+    order.sort_by(|a, b| (a.part, &a.path).cmp(&(b.part, &b.path)));
+    let mut framed = Framed::new("polhode manifest 1");
+    for line in order {
+        framed.field(line.part.name().as_bytes());
+        framed.field(line.path.as_bytes());
+        framed.field(&[line.leaf.tag()]);
+        framed.field(&line.leaf.payload());
+    }
+    framed.finish()
 }
 
 /// A leaf that differs between two manifests.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Change {
     /// The part it belongs to.
     pub part: Part,

@@ -1,0 +1,262 @@
+//! Code fingerprints: what of this program's source a kind of node depends on.
+//!
+//! `build.rs` digests the token stream of every file below `src/` (see [`tokens`](https://docs.rs/proc-macro2) for the
+//! lexer) and writes the table that is included here: files with their digests, the external crates that each names,
+//! the crates' checksums from `Cargo.lock`, the compiler. A [`Kind`] declares rooms and files; its listing holds
+//! these files, the external crates that they reach, and the compiler. Comments, docs, layout, test code and files that
+//! only list modules are not in it.
+
+use super::digest::Digest;
+use super::node::Kind;
+use serde::{Deserialize, Serialize};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::{Arc, LazyLock, Mutex};
+
+/// One file: its path below `src/`, its digest, the external crates it names, the paths in this crate it names.
+pub struct FileCode {
+    /// `numerics/real.rs`.
+    pub path: &'static str,
+    /// The digest of its tokens.
+    pub digest: &'static str,
+    /// The external crates that it names, as indices into the table of crates.
+    pub crates: &'static [usize],
+    /// The places in this crate that it names: `geometry/spin`, `numerics/real`.
+    pub paths: &'static [&'static str],
+}
+
+/// One external crate: its name, version and checksum, and the crates that it depends on.
+pub struct CrateCode {
+    /// `libm`.
+    pub name: &'static str,
+    /// `0.2.16 1234…`: version and checksum.
+    pub version: &'static str,
+    /// What it depends on, as indices into the table of crates.
+    pub dependencies: &'static [usize],
+}
+
+mod generated {
+    use super::{CrateCode, FileCode};
+    include!(concat!(env!("OUT_DIR"), "/fingerprints.rs"));
+}
+
+/// The compiler that this program was built with.
+pub const COMPILER: &str = generated::COMPILER;
+
+/// The files that take part, ordered by path.
+pub const FILES: &[FileCode] = generated::FILES;
+
+/// Rooms' parts that results do not depend on: the contract's own machinery, whose changes show in the keys themselves.
+const MACHINERY: &[&str] = &[
+    "contract/accuracy.rs",
+    "contract/code.rs",
+    "contract/digest.rs",
+    "contract/manifest.rs",
+    "contract/node.rs",
+    "contract/plan.rs",
+    "contract/work.rs",
+];
+
+/// The code that a kind depends on, line by line.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CodeListing {
+    /// `("numerics/real.rs", digest)`, `("crate libm", version and checksum)`, `("compiler", version)`; ordered.
+    pub lines: Vec<(String, String)>,
+    /// The digest of [`Self::text`].
+    pub digest: Digest,
+}
+
+/// A line that differs between two listings.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CodeChange {
+    /// The file, crate or `compiler`.
+    pub name: String,
+    /// What it was, if it was there.
+    pub old: Option<String>,
+    /// What it is, if it is there.
+    pub new: Option<String>,
+}
+
+impl CodeListing {
+    /// A listing of these lines.
+    pub fn new(lines: impl IntoIterator<Item = (String, String)>) -> Self {
+        let mut lines: Vec<_> = lines.into_iter().collect();
+        lines.sort();
+        let digest = Digest::of(text_of(&lines).as_bytes());
+        Self { lines, digest }
+    }
+
+    /// The text form: a line each, name and value parted by a tab. Stored, so that a later run can say what changed.
+    pub fn text(&self) -> String {
+        text_of(&self.lines)
+    }
+
+    /// Reads the text form.
+    pub fn parse(text: &str) -> Option<Self> {
+        let lines: Option<Vec<_>> = text.lines().map(|line| line.split_once('\t')).collect();
+        Some(Self::new(lines?.into_iter().map(|(name, value)| (name.to_owned(), value.to_owned()))))
+    }
+
+    /// What differs in a newer listing.
+    pub fn changes(&self, newer: &Self) -> Vec<CodeChange> {
+        let lines = |listing: &Self| listing.lines.iter().cloned().collect::<BTreeMap<_, _>>();
+        let (old, new) = (lines(self), lines(newer));
+        let names: BTreeSet<&String> = old.keys().chain(new.keys()).collect();
+        let differing = names.into_iter().filter(|name| old.get(*name) != new.get(*name));
+        differing
+            .map(|name| CodeChange { name: name.clone(), old: old.get(name).cloned(), new: new.get(name).cloned() })
+            .collect()
+    }
+}
+
+fn text_of(lines: &[(String, String)]) -> String {
+    lines.iter().map(|(name, value)| format!("{name}\t{value}\n")).collect()
+}
+
+/// An entry of [`Kind::code`] that names no file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("kind {kind:?} declares the code {entry:?}, but there is no such room, folder or file below src/")]
+pub struct UnknownCode {
+    /// The kind.
+    pub kind: &'static str,
+    /// The entry.
+    pub entry: &'static str,
+}
+
+/// The code that a kind depends on. Computed once per kind.
+///
+/// # Errors
+/// An entry that matches no file.
+pub fn listing(kind: &Kind) -> Result<Arc<CodeListing>, UnknownCode> {
+    type Known = HashMap<(&'static str, &'static [&'static str]), Arc<CodeListing>>;
+    static KNOWN: LazyLock<Mutex<Known>> = LazyLock::new(Mutex::default);
+    let known = || KNOWN.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    if let Some(listing) = known().get(&(kind.name, kind.code)) {
+        return Ok(Arc::clone(listing));
+    }
+    let files = files_of(kind)?;
+    let mut lines: Vec<_> = files.iter().map(|file| (file.path.to_owned(), file.digest.to_owned())).collect();
+    lines.extend(crates_of(&files).into_iter().map(|(name, version)| (format!("crate {name}"), version)));
+    lines.push(("compiler".to_owned(), COMPILER.to_owned()));
+    let listing = Arc::new(CodeListing::new(lines));
+    known().insert((kind.name, kind.code), Arc::clone(&listing));
+    Ok(listing)
+}
+
+/// Whether a file is, or lies in, a room, folder or file as kinds declare them.
+fn covers(entry: &str, path: &str) -> bool {
+    path.strip_prefix(entry).is_some_and(|rest| rest.is_empty() || rest.starts_with('/') || rest == ".rs")
+}
+
+fn files_of(kind: &Kind) -> Result<Vec<&'static FileCode>, UnknownCode> {
+    if let Some(entry) = kind.code.iter().find(|entry| !FILES.iter().any(|file| covers(entry, file.path))) {
+        return Err(UnknownCode { kind: kind.name, entry });
+    }
+    Ok(FILES.iter().filter(|file| kind.code.iter().any(|entry| covers(entry, file.path))).collect())
+}
+
+/// The external crates that files name, and all that these depend on; versions of one crate on one line.
+fn crates_of(files: &[&FileCode]) -> BTreeMap<String, String> {
+    let mut reached = BTreeSet::new();
+    let mut open: Vec<usize> = files.iter().flat_map(|file| file.crates.iter().copied()).collect();
+    while let Some(index) = open.pop() {
+        if let Some(found) = generated::CRATES.get(index)
+            && reached.insert(index)
+        {
+            open.extend(found.dependencies);
+        }
+    }
+    let mut versions: BTreeMap<String, String> = BTreeMap::new();
+    for found in reached.into_iter().filter_map(|index| generated::CRATES.get(index)) {
+        let entry = versions.entry(found.name.to_owned()).or_default();
+        let gap = if entry.is_empty() { "" } else { ", " };
+        entry.push_str(&format!("{gap}{}", found.version));
+    }
+    versions
+}
+
+/// The files that the declared code of a kind names and the kind does not declare, as (file, names): a kind for which
+/// this is not empty could serve an old result for new code.
+///
+/// # Errors
+/// An entry that matches no file.
+pub fn undeclared(kind: &Kind) -> Result<Vec<(&'static str, &'static str)>, UnknownCode> {
+    let declared = files_of(kind)?;
+    let mut missing = BTreeSet::new();
+    for file in &declared {
+        for target in file.paths.iter().filter_map(|path| resolve(path)) {
+            let is_declared = declared.iter().any(|known| known.path == target);
+            if !is_declared && !MACHINERY.contains(&target) {
+                missing.insert((file.path, target));
+            }
+        }
+    }
+    Ok(missing.into_iter().collect())
+}
+
+/// The file that a path names: the longest beginning of it that is a file or a folder's `mod.rs`.
+fn resolve(path: &str) -> Option<&'static str> {
+    let mut path = path;
+    loop {
+        let is_it = |file: &&FileCode| {
+            file.path.strip_suffix(".rs").is_some_and(|stem| stem == path || stem.strip_suffix("/mod") == Some(path))
+        };
+        if let Some(file) = FILES.iter().find(is_it) {
+            return Some(file.path);
+        }
+        path = path.rsplit_once('/')?.0;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kind(code: &'static [&'static str]) -> Kind {
+        Kind { name: "toy", summary: "", code, measurement: false }
+    }
+
+    #[test]
+    fn an_entry_is_a_room_a_folder_or_a_file() {
+        assert!(covers("numerics", "numerics/real.rs"));
+        assert!(covers("numerics/elliptic", "numerics/elliptic/carlson.rs"));
+        assert!(covers("numerics/real.rs", "numerics/real.rs"));
+        assert!(covers("numerics/real", "numerics/real.rs"));
+        assert!(!covers("numerics/real", "numerics/realm.rs"));
+        assert!(!covers("num", "numerics/real.rs"));
+    }
+
+    #[test]
+    fn an_entry_that_matches_nothing_is_an_error() {
+        let error = listing(&kind(&["numerics", "numeric"])).expect_err("no such room");
+        assert_eq!(error, UnknownCode { kind: "toy", entry: "numeric" });
+    }
+
+    /// The listing of `numerics` holds its files, `libm` with its checksum, the compiler; no list of names, no other room.
+    #[test]
+    fn a_listing_names_files_crates_and_compiler() {
+        let listing = listing(&kind(&["numerics"])).expect("known");
+        let names: Vec<&str> = listing.lines.iter().map(|(name, _)| name.as_str()).collect();
+        for name in ["numerics/real.rs", "numerics/elliptic/carlson.rs", "crate libm", "compiler"] {
+            assert!(names.contains(&name), "{name} in {names:?}");
+        }
+        for name in ["numerics/mod.rs", "contract/node.rs", "crate serde", "crate polars"] {
+            assert!(!names.contains(&name), "{name} in {names:?}");
+        }
+        assert_eq!(CodeListing::parse(&listing.text()).as_ref(), Some(&*listing));
+    }
+
+    /// `contract/node.rs` uses serde, which depends on more: the closure is in the listing.
+    #[test]
+    fn crates_are_closed_over_their_dependencies() {
+        let listing = listing(&kind(&["contract/node.rs"])).expect("known");
+        let names: Vec<&str> = listing.lines.iter().map(|(name, _)| name.as_str()).collect();
+        assert!(names.contains(&"crate serde") && names.contains(&"crate serde_core"), "{names:?}");
+    }
+
+    #[test]
+    fn code_that_is_used_but_not_declared_is_found() {
+        assert_eq!(undeclared(&kind(&["numerics"])), Ok(vec![]));
+        let missing = undeclared(&kind(&["numerics/elliptic"])).expect("known");
+        assert!(missing.contains(&("numerics/elliptic/carlson.rs", "numerics/real.rs")), "{missing:?}");
+    }
+}
