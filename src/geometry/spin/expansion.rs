@@ -8,24 +8,23 @@
 
 use super::extremal::{Extremal, Regime};
 use super::phase::State;
+use super::solve::Quantity;
 use crate::numerics::real::Real;
 
 /// Degree to which the phase is expanded. Eight needs about as much work as one Carlson function.
 pub const DEGREE: usize = 8;
 const TERMS: usize = DEGREE + 1;
 /// Fraction of the estimated radius of convergence within which a root of the series is believed.
-const TRUSTED_FRACTION: f64 = 0.6;
+const TRUSTED_FRACTION: f64 = 0.5;
 /// Newton and bisection steps on the series; a triple root takes about 80 (each gains a third), others five.
 const MOST_STEPS: usize = 100;
 
 /// Taylor coefficients about an instant, in `y = rate·(t − t0)`.
 #[derive(Debug, Clone, Copy)]
 pub struct Expansion<S> {
-    /// Θ.
-    pub phase: [S; TERMS],
-    /// The quantity whose level is sought: Θ, or λ = Θ + χ.
+    /// The quantity sought, less its level: `Θ − turns·π`, or `λ − turns·π`.
     pub target: [S; TERMS],
-    /// χ.
+    /// χ, less the half turns of the state.
     pub chi: [S; TERMS],
     /// sin β.
     pub sin_beta: [S; TERMS],
@@ -39,11 +38,18 @@ pub struct Expansion<S> {
 
 /// `Σ a[i] b[n−i]`.
 fn product<S: Real>(a: &[S; TERMS], b: &[S; TERMS], n: usize) -> S {
-    let mut sum = a[0] * b[n];
-    for i in 1..=n {
-        sum += a[i] * b[n - i];
+    // Two sums, so that one addition need not wait for the other.
+    let (mut even, mut odd) = (a[0] * b[n], S::ZERO);
+    let mut i = 1;
+    while i < n {
+        odd += a[i] * b[n - i];
+        even += a[i + 1] * b[n - i - 1];
+        i += 2;
     }
-    sum
+    if i == n {
+        odd += a[i] * b[0];
+    }
+    even + odd
 }
 
 /// The value of a series.
@@ -65,8 +71,8 @@ pub fn slope<S: Real>(series: &[S; TERMS], y: S) -> S {
 }
 
 impl<S: Real> Expansion<S> {
-    /// The series about a state. `target` is Θ, or λ if `lambda` is set.
-    pub fn new(extremal: &Extremal<S>, state: &State<S>, lambda: bool) -> Self {
+    /// The series about a state.
+    pub fn new(extremal: &Extremal<S>, state: &State<S>, quantity: Quantity, turns: S) -> Self {
         let (one, two) = (S::ONE, S::from_f64(2.0));
         let k = extremal.k;
         let rate = extremal.rate;
@@ -93,17 +99,8 @@ impl<S: Real> Expansion<S> {
         cx[0] = state.b_q / length;
         let inverse = one / p[0];
         let weight = half_g / (k * k);
-        let mut result = Self {
-            phase: zero,
-            target: zero,
-            chi: zero,
-            sin_beta: zero,
-            cos_beta: zero,
-            beta_rate: zero,
-            radius: one,
-        };
-        result.phase[0] = state.phase;
-        result.chi[0] = state.chi;
+        let mut result = Self { target: zero, chi: zero, sin_beta: zero, cos_beta: zero, beta_rate: zero, radius: one };
+        result.chi[0] = state.chi_rest;
         for n in 0..DEGREE {
             let next = one / S::from_f64((n + 1) as f64);
             e[n] = product(&s, &c, n);
@@ -111,7 +108,7 @@ impl<S: Real> Expansion<S> {
             q[n] = if n == 0 { inverse } else { -(product(&p, &q, n) * inverse) };
             phase_rate[n] = weight * product(&p, &square, n);
             chi_rate[n] = half_g * q[n] - phase_rate[n];
-            result.phase[n + 1] = phase_rate[n] * next;
+            result.target[n + 1] = phase_rate[n] * next;
             result.chi[n + 1] = chi_rate[n] * next;
             s[n + 1] = product(&c, &v, n) * next;
             c[n + 1] = -(product(&s, &v, n) * next);
@@ -120,42 +117,43 @@ impl<S: Real> Expansion<S> {
             sx[n + 1] = product(&cx, &chi_rate, n) * next;
             cx[n + 1] = -(product(&sx, &chi_rate, n) * next);
         }
-        result.target = result.phase;
-        if lambda {
-            for (sum, chi) in result.target.iter_mut().zip(result.chi) {
-                *sum += chi;
-            }
-            result.target[0] = state.lambda;
-        }
-        (result.sin_beta, result.cos_beta, result.beta_rate) = (s, c, v);
-        // The phase and χ have the same singularities; the scale of both is λ's rate.
-        let last = result.phase[DEGREE].abs() + result.chi[DEGREE].abs();
+        // Θ and χ have the same singularities; the scale of both is λ's rate.
+        let last = result.target[DEGREE].abs() + result.chi[DEGREE].abs();
         let scale = half_g * inverse + weight * p[0];
         if last > S::ZERO {
             result.radius = (scale / last).sqrt().sqrt().sqrt();
         }
+        match quantity {
+            Quantity::Phase => result.target[0] = state.phase_beyond(turns),
+            Quantity::Lambda => {
+                for (sum, chi) in result.target.iter_mut().zip(result.chi) {
+                    *sum += chi;
+                }
+                result.target[0] = state.lambda_beyond(turns);
+            }
+        }
+        (result.sin_beta, result.cos_beta, result.beta_rate) = (s, c, v);
         result
     }
 
-    /// The root `y` of `target(y) = level` within `[low, high]` and within the trusted part of the disc of convergence.
-    /// Where the series does not reach the level there, the end of that interval towards the root.
-    pub fn root(&self, level: S, low: S, high: S) -> S {
+    /// The root `y` of `target(y) = offset` within `[low, high]` and within the trusted part of the disc of convergence.
+    /// Where the series does not reach the offset there, the end of that interval towards the root.
+    pub fn root(&self, offset: S, low: S, high: S) -> S {
         let trusted = self.radius * S::from_f64(TRUSTED_FRACTION);
         let half = S::from_f64(0.5);
         let (mut low, mut high) = (low.max(-trusted), high.min(trusted));
         let mut series = self.target;
-        series[0] = self.target[0] - level;
-        if series[0] < S::ZERO {
+        series[0] = self.target[0] - offset;
+        let rising = series[0] < S::ZERO;
+        let end = if rising {
             low = low.max(S::ZERO);
-            if value(&series, high) < S::ZERO {
-                return high;
-            }
+            high
         } else {
             high = high.min(S::ZERO);
-            if value(&series, low) > S::ZERO {
-                return low;
-            }
-        }
+            low
+        };
+        // The end is looked at only if Newton's iteration needs it: far out the series may have left the function.
+        let mut end_is_beyond = false;
         let mut y = S::ZERO;
         for _ in 0..MOST_STEPS {
             let residual = value(&series, y);
@@ -167,9 +165,15 @@ impl<S: Real> Expansion<S> {
             } else {
                 high = high.min(y);
             }
-            let step = residual / slope(&series, y);
-            let mut next = y - step;
+            let mut next = y - residual / slope(&series, y);
             if !(next > low && next < high) {
+                if !end_is_beyond {
+                    let at_end = value(&series, end);
+                    if (at_end < S::ZERO) == rising {
+                        return end;
+                    }
+                    end_is_beyond = true;
+                }
                 next = half * (low + high);
             }
             let moved = (next - y).abs();
@@ -189,9 +193,9 @@ impl<S: Real> Expansion<S> {
         }
         let mut power = S::ONE;
         for _ in 0..DEGREE {
-            power = power * y.abs();
+            power *= y.abs();
         }
-        let last = (self.phase[DEGREE].abs() + self.chi[DEGREE].abs()) * power;
+        let last = (self.target[DEGREE].abs() + self.chi[DEGREE].abs()) * power;
         last * ratio / (S::ONE - ratio)
     }
 }

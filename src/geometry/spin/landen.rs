@@ -76,7 +76,7 @@ impl<S: Real> Landen<S> {
         let sign = S::ONE - (odd + odd);
         let v = u - half_turns * period;
         let (sine, cosine) = (v.abs() * self.mean).sin_cos();
-        if !(sine > S::ZERO) {
+        if sine <= S::ZERO {
             return Amplitude { half_turns, sign, sine: S::ZERO, cosine: S::ONE };
         }
         // a and c are cotangents all the way up; rounding may leave the last one just below zero at φ = π/2.
@@ -84,8 +84,8 @@ impl<S: Real> Landen<S> {
         let mut c = self.mean * a;
         let mut d = S::ONE;
         for level in (0..self.levels).rev() {
-            a = a * c;
-            c = c * d;
+            a *= c;
+            c *= d;
             d = (self.geometric[level] + a) / (self.arithmetic[level] + a);
             a = c / self.arithmetic[level];
         }

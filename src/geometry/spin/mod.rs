@@ -26,3 +26,6 @@ pub mod phase;
 pub mod solve;
 pub mod start;
 pub mod switch_points;
+
+#[cfg(test)]
+mod tests;

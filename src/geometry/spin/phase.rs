@@ -27,8 +27,10 @@ use crate::numerics::real::Real;
 pub struct State<S> {
     /// The time.
     pub t: S,
-    /// The angle λ of the point about the momentum.
-    pub lambda: S,
+    /// Whole half turns of β's argument, `round(u/2K)`; zero in the elementary regimes.
+    pub half_turns: S,
+    /// `λ − half_turns·π`, accurate by itself; λ is the angle of the point about the momentum.
+    pub lambda_rest: S,
     /// `sin β = h1/(2k)`.
     pub sin_beta: S,
     /// `cos β = h3/2`.
@@ -39,10 +41,10 @@ pub struct State<S> {
     pub a: S,
     /// The same multiple of `B_q = G² δβ' − p β'`.
     pub b_q: S,
-    /// `χ = arg(B_q + iA)`, continuous from zero.
-    pub chi: S,
-    /// `Θ = λ − χ`.
-    pub phase: S,
+    /// The half turns that are in χ: all of them when oscillating, none when rotating.
+    pub chi_turns: S,
+    /// `χ − chi_turns·π`; `χ = arg(B_q + iA)`, continuous from zero.
+    pub chi_rest: S,
     /// `δβ = ∂β/∂p_θ`.
     pub delta_beta: S,
     /// `δβ' = ∂β'/∂p_θ`.
@@ -52,11 +54,37 @@ pub struct State<S> {
 }
 
 impl<S: Real> State<S> {
+    /// λ.
+    pub fn lambda(&self) -> S {
+        self.half_turns * S::PI + self.lambda_rest
+    }
+
+    /// `Θ − turns·π`, where the whole half turns of λ and χ cancel exactly.
+    pub fn phase_beyond(&self, turns: S) -> S {
+        (self.half_turns - self.chi_turns - turns) * S::PI + (self.lambda_rest - self.chi_rest)
+    }
+
+    /// `λ − turns·π`.
+    pub fn lambda_beyond(&self, turns: S) -> S {
+        (self.half_turns - turns) * S::PI + self.lambda_rest
+    }
+
+    /// A bound of the rounding error of `phase_beyond(turns)`: twice ε of each of its terms.
+    pub fn phase_rounding(&self, turns: S) -> S {
+        let whole = (self.half_turns - self.chi_turns - turns).abs() * S::PI;
+        S::from_f64(2.0) * S::EPSILON * (whole + self.lambda_rest.abs() + self.chi_rest.abs())
+    }
+
     /// `dΘ/dt = (G/2k²) P sin²χ`.
     pub fn phase_rate(&self, extremal: &Extremal<S>) -> S {
         let square = self.a * self.a / (self.a * self.a + self.b_q * self.b_q);
         let scale = extremal.casimir / (S::from_f64(2.0) * extremal.k * extremal.k);
         scale * extremal.ellipse(self.sin_beta, self.cos_beta) * square
+    }
+
+    /// The same for `lambda_beyond(turns)`.
+    pub fn lambda_rounding(&self, turns: S) -> S {
+        S::from_f64(2.0) * S::EPSILON * ((self.half_turns - turns).abs() * S::PI + self.lambda_rest.abs())
     }
 
     /// The momentum `h = (2k sin β, −2k β', 2 cos β)`.
@@ -66,13 +94,15 @@ impl<S: Real> State<S> {
     }
 }
 
-/// The phase at a whole number of quarter turns, where only complete integrals are needed.
+/// Θ and λ at a whole number of quarter turns, where only complete integrals are needed.
 #[derive(Debug, Clone, Copy)]
 pub struct QuarterPhase<S> {
-    /// Θ.
+    /// `Θ − turns·π`.
     pub phase: S,
     /// dΘ/dt.
     pub phase_rate: S,
+    /// `λ − turns·π`.
+    pub lambda: S,
     /// dλ/dt.
     pub lambda_rate: S,
 }
@@ -127,17 +157,17 @@ impl<S: Real> Extremal<S> {
                 delta_beta_rate = one / two;
             }
         }
-        let chi = a.atan2(b_q);
         State {
             t,
-            lambda,
+            half_turns: S::ZERO,
+            lambda_rest: lambda,
             sin_beta,
             cos_beta,
             beta_rate,
             a,
             b_q,
-            chi,
-            phase: lambda - chi,
+            chi_turns: S::ZERO,
+            chi_rest: a.atan2(b_q),
             delta_beta,
             delta_beta_rate,
             elliptic_calls: 0,
@@ -159,9 +189,10 @@ impl<S: Real> Extremal<S> {
         let u = f + turns * elliptic.quarter;
         let z = m * third * cubed * r_d(c2, one, d2) + turns * elliptic.quarter_z;
         let pi = f + elliptic.n * third * cubed * r_j(c2, d2, one, c2 + elliptic.one_minus_n * s2);
-        let secular = self.secular_lambda(elliptic, f, pi) + turns * elliptic.quarter_lambda;
+        let secular = self.secular_lambda(elliptic, f, pi) + half_turns * elliptic.excess;
         let t = u / self.rate;
         let (lambda, sin_beta, cos_beta, beta_rate, a, b_q, chi, delta_beta, delta_beta_rate);
+        let mut chi_turns = S::ZERO;
         match self.regime {
             Regime::RotatingBelow => {
                 let l = self.anisotropy;
@@ -195,34 +226,36 @@ impl<S: Real> Extremal<S> {
                 (sin_beta, cos_beta, beta_rate) = (sign * b / w * s, d, sign * b * c);
                 a = sign * g * y / (k * w);
                 b_q = sign * (two * c / k + g * g / (two * k) * s * d * z);
-                chi = half_turns * S::PI + continuous_angle(sign * a, sign * b_q, s, c);
+                chi_turns = half_turns;
+                chi = continuous_angle(sign * a, sign * b_q, s, c);
                 delta_beta = sign * y / (two * k * w);
                 delta_beta_rate = sign * v / (two * k);
             }
         }
         State {
             t,
-            lambda,
+            half_turns,
+            lambda_rest: lambda,
             sin_beta,
             cos_beta,
             beta_rate,
             a,
             b_q,
-            chi,
-            phase: lambda - chi,
+            chi_turns,
+            chi_rest: chi,
             delta_beta,
             delta_beta_rate,
             elliptic_calls: 3,
         }
     }
 
-    /// Θ and Θ' after `n` quarter turns (`u = nK`); `None` in the elementary regimes, which have no quarter turns.
-    pub fn quarter_phase(&self, n: S) -> Option<QuarterPhase<S>> {
-        let elliptic = self.elliptic.as_ref()?;
+    /// Θ and λ, less `turns·π`, after `n` quarter turns (`u = nK`).
+    pub fn quarter_phase(&self, elliptic: &Elliptic<S>, n: S, turns: S) -> QuarterPhase<S> {
         let (one, two) = (S::ONE, S::from_f64(2.0));
         let (k, g) = (self.k, self.casimir);
-        let half = (n / two).floor();
-        let even = n - two * half < S::from_f64(0.5);
+        let half_turns = (n / two).floor();
+        let rest = n - two * half_turns; // 0 or 1
+        let even = rest < S::from_f64(0.5);
         let (m, complementary) = (elliptic.m, elliptic.complementary);
         let d = complementary.sqrt();
         let z = n * elliptic.quarter_z;
@@ -247,11 +280,16 @@ impl<S: Real> Extremal<S> {
                 ellipse = if even { one } else { one + (k2 - one) * m };
             }
         }
-        let turns = if self.regime == Regime::Oscillating { half * S::PI } else { S::ZERO };
-        let chi = turns + a.atan2(b_q);
+        let chi = a.atan2(b_q);
+        let chi_turns = if self.regime == Regime::Oscillating { half_turns } else { S::ZERO };
         let square = a * a / (a * a + b_q * b_q);
-        let phase_rate = g / (two * k2) * ellipse * square;
-        Some(QuarterPhase { phase: n * elliptic.quarter_lambda - chi, phase_rate, lambda_rate: g / (two * ellipse) })
+        let lambda_rest = n * elliptic.excess / two + rest * S::PI / two;
+        QuarterPhase {
+            phase: (half_turns - chi_turns - turns) * S::PI + (lambda_rest - chi),
+            phase_rate: g / (two * k2) * ellipse * square,
+            lambda: (half_turns - turns) * S::PI + lambda_rest,
+            lambda_rate: g / (two * ellipse),
+        }
     }
 }
 

@@ -6,15 +6,19 @@
 //! one or two evaluations are usual.
 
 use super::expansion::{self, Expansion};
-use super::extremal::{Extremal, Regime};
+use super::extremal::{CALLS_FOR_CONSTANTS, Elliptic, Extremal, Regime};
 use super::phase::State;
 use crate::numerics::real::Real;
 use thiserror::Error;
 
 /// Closed-form evaluations after which the solver gives up (one or two are usual, bisection alone would need 60).
 const MOST_EVALUATIONS: u32 = 100;
-/// A relative error of a time above this means that the phase has no digits left.
+/// Evaluations after which the bracket must have halved, or it is halved.
+const CHECK_EVERY: u32 = 4;
+/// An error of the point, in radians, above which there is no answer. (At p_θ = 0 that is k above 2e6.)
 const WORTHLESS: f64 = 1e-2;
+/// Rounding of a time that is not rounding of the phase: of the rate and of u, in ε.
+const ROUNDING_OF_TIME: f64 = 4.0;
 
 /// What is to reach its level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,25 +32,27 @@ pub enum Quantity {
 /// Why no instant could be given.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum SpinError {
-    /// The phase is a difference of two numbers of size `k²`: its digits are gone.
-    #[error("k = {k}, p_theta = {p_theta}: the phase has no digits left in this precision (estimated relative error {error:e})")]
+    /// The time is so long that its rounding moves the point by more than a hundredth of a radian.
+    #[error(
+        "k = {k}, p_theta = {p_theta}: the time is too long for this precision (its rounding moves the point by {moved:e})"
+    )]
     PrecisionLost {
         /// Anisotropy.
         k: f64,
         /// Covector.
         p_theta: f64,
-        /// Estimated relative error of the time.
-        error: f64,
+        /// Estimated error of the point, in radians.
+        moved: f64,
     },
     /// The iteration did not end. A defect.
-    #[error("k = {k}, p_theta = {p_theta}: no convergence to level {level} after {evaluations} evaluations")]
+    #[error("k = {k}, p_theta = {p_theta}: no convergence to {turns} half turns after {evaluations} evaluations")]
     NoConvergence {
         /// Anisotropy.
         k: f64,
         /// Covector.
         p_theta: f64,
-        /// The level sought.
-        level: f64,
+        /// The half turns sought.
+        turns: f64,
         /// Evaluations spent.
         evaluations: u32,
     },
@@ -70,10 +76,12 @@ pub enum SpinError {
 pub struct PhaseRoot<S> {
     /// The time.
     pub t: S,
-    /// λ there.
-    pub lambda: S,
-    /// χ there.
-    pub chi: S,
+    /// Whole half turns of β's argument at the last evaluation.
+    pub half_turns: S,
+    /// Whole half turns in χ.
+    pub chi_turns: S,
+    /// χ less its half turns.
+    pub chi_rest: S,
     /// sin β there.
     pub sin_beta: S,
     /// cos β there.
@@ -94,103 +102,118 @@ struct Bracket<S> {
     guess: S,
 }
 
-/// The instant at which `quantity` reaches `level > 0`.
+/// The instant at which `quantity` reaches `turns·π`, for a whole number `turns ≥ 1`.
 ///
-/// Guarantee: a few ε of λ + χ in the phase, that is a few ε relative in time times the problem's condition for
-/// moderate `k`; about `2k²ε` when oscillating with large `k`. `error` says so.
-pub fn solve<S: Real>(extremal: &Extremal<S>, quantity: Quantity, level: S) -> Result<PhaseRoot<S>, SpinError> {
-    if !(level > S::ZERO && level.is_finite()) {
-        let found = level.to_f64();
-        return Err(SpinError::OutOfDomain { what: "level", found, accepted: "positive and finite" });
+/// Guarantee: a few ε relative in time, times the problem's condition; `error` is an estimate meant as a bound.
+pub fn solve<S: Real>(extremal: &Extremal<S>, quantity: Quantity, turns: S) -> Result<PhaseRoot<S>, SpinError> {
+    if !(turns >= S::ONE && turns.is_finite() && turns.floor() == turns) {
+        let found = turns.to_f64();
+        return Err(SpinError::OutOfDomain { what: "number of half turns", found, accepted: "a whole number from 1" });
     }
-    let Bracket { mut low, mut high, guess } = match extremal.elliptic {
-        Some(_) => quarter_bracket(extremal, quantity, level),
-        None => elementary_bracket(extremal, quantity, level),
+    let Bracket { mut low, mut high, guess } = match &extremal.elliptic {
+        Some(elliptic) => quarter_bracket(extremal, elliptic, quantity, turns),
+        None => elementary_bracket(extremal, quantity, turns),
     };
-    let mut calls = if extremal.elliptic.is_some() { 2 } else { 0 };
+    let mut calls = if extremal.elliptic.is_some() { CALLS_FOR_CONSTANTS } else { 0 };
+    let rate = extremal.rate;
+    let half = S::from_f64(0.5);
     let mut t = guess;
+    let mut width = high - low;
     for evaluation in 1..=MOST_EVALUATIONS {
         let state = extremal.state_near(t);
         calls += state.elliptic_calls;
-        let series = Expansion::new(extremal, &state, quantity == Quantity::Lambda);
-        if series.target[0] < level {
+        let series = Expansion::new(extremal, &state, quantity, turns);
+        if series.target[0] < S::ZERO {
             low = low.max(state.t);
         } else {
             high = high.min(state.t);
         }
-        let rate = extremal.rate;
-        let y = series.root(level, (low - state.t) * rate, (high - state.t) * rate);
-        let found = state.t + y / rate;
+        let y = series.root(S::ZERO, (low - state.t) * rate, (high - state.t) * rate);
         if series.omitted(y) <= S::EPSILON * S::from_f64(0.25) {
-            return finish(extremal, &state, &series, level, y, evaluation, calls);
+            let rounding = match quantity {
+                Quantity::Phase => state.phase_rounding(turns),
+                Quantity::Lambda => state.lambda_rounding(turns),
+            };
+            return finish(extremal, &state, &series, y, rounding, Count { evaluation, calls });
         }
+        let found = state.t + y / rate;
+        let residual = -expansion::value(&series.target, y);
         t = found;
-        let residual = level - expansion::value(&series.target, y);
         if residual.abs() > S::EPSILON.sqrt() {
-            // The series did not reach: go on by Newton's step from its end, at most half of what is left.
+            // The series does not reach that far: go on by Newton's step from its end, at most half of what is left.
             let step = residual / (expansion::slope(&series.target, y) * rate);
-            let half = S::from_f64(0.5);
-            let (nearest, farthest) = (low + half * (found - low), found + half * (high - found));
+            let (nearest, farthest) = (found + half * (low - found), found + half * (high - found));
             t = found + step;
             if !(t >= nearest && t <= farthest) {
                 t = if residual > S::ZERO { farthest } else { nearest };
             }
         }
+        if evaluation % CHECK_EVERY == 0 {
+            // Bisection if the bracket is not shrinking as fast as bisection would shrink it.
+            if high - low > half * width {
+                t = half * (low + high);
+            }
+            width = high - low;
+        }
     }
     Err(SpinError::NoConvergence {
         k: extremal.k.to_f64(),
         p_theta: extremal.p.to_f64(),
-        level: level.to_f64(),
+        turns: turns.to_f64(),
         evaluations: MOST_EVALUATIONS,
     })
+}
+
+struct Count {
+    evaluation: u32,
+    calls: u32,
 }
 
 fn finish<S: Real>(
     extremal: &Extremal<S>,
     state: &State<S>,
     series: &Expansion<S>,
-    level: S,
     y: S,
-    evaluations: u32,
-    elliptic_calls: u32,
+    rounding: S,
+    count: Count,
 ) -> Result<PhaseRoot<S>, SpinError> {
-    let two = S::from_f64(2.0);
     let rate = extremal.rate;
     let t = state.t + y / rate;
-    let chi = expansion::value(&series.chi, y);
-    let lambda = expansion::value(&series.phase, y) + chi;
-    // Rounding of the phase: measured at most … of this (see the tests of `conjugate`).
-    let rounding = S::EPSILON * (two + lambda + chi);
     let slope = expansion::slope(&series.target, y);
     let mut shift = rounding / slope;
     // Where the slope changes within that distance (next to a triple root) the series itself gives the distance.
-    if !(shift * series.target[2].abs() < S::from_f64(0.1) * slope) {
+    let straight = shift * series.target[2].abs() < S::from_f64(0.1) * slope;
+    if !straight {
         let far = series.radius;
-        let above = series.root(level + rounding, -far, far);
-        let below = series.root(level - rounding, -far, far);
-        shift = (above - y).max(y - below);
+        let above = series.root(rounding, -far, far);
+        let below = series.root(-rounding, -far, far);
+        shift = (above - y).abs().max((y - below).abs());
     }
-    let error = shift / (rate * t) + S::from_f64(4.0) * S::EPSILON;
-    if !(error.to_f64() < WORTHLESS) {
-        let (k, p_theta) = (extremal.k.to_f64(), extremal.p.to_f64());
-        return Err(SpinError::PrecisionLost { k, p_theta, error: error.to_f64() });
+    let error = shift / (rate * t) + S::from_f64(ROUNDING_OF_TIME) * S::EPSILON;
+    // The point moves with speed |ω × r| ≤ max(1, 1/k).
+    let moved = (error * t * S::ONE.max(S::ONE / extremal.k)).to_f64();
+    let useful = moved < WORTHLESS;
+    if !useful {
+        return Err(SpinError::PrecisionLost { k: extremal.k.to_f64(), p_theta: extremal.p.to_f64(), moved });
     }
     Ok(PhaseRoot {
         t,
-        lambda,
-        chi,
+        half_turns: state.half_turns,
+        chi_turns: state.chi_turns,
+        chi_rest: expansion::value(&series.chi, y),
         sin_beta: expansion::value(&series.sin_beta, y),
         cos_beta: expansion::value(&series.cos_beta, y),
         beta_rate: expansion::value(&series.beta_rate, y) * rate,
         error,
-        evaluations,
-        elliptic_calls,
+        evaluations: count.evaluation,
+        elliptic_calls: count.calls,
     })
 }
 
 /// Brackets from `λ − π < Θ ≤ λ` and elementary bounds of λ; guesses from the limits.
-fn elementary_bracket<S: Real>(extremal: &Extremal<S>, quantity: Quantity, level: S) -> Bracket<S> {
+fn elementary_bracket<S: Real>(extremal: &Extremal<S>, quantity: Quantity, turns: S) -> Bracket<S> {
     let half = S::from_f64(0.5);
+    let level = turns * S::PI;
     let lag = if quantity == Quantity::Phase { S::PI } else { S::ZERO };
     let guess = central_guess(extremal, quantity, level);
     match extremal.regime {
@@ -235,32 +258,34 @@ fn central_guess<S: Real>(extremal: &Extremal<S>, quantity: Quantity, level: S) 
 }
 
 /// The quarter period in which the level is reached, and a guess inside.
-fn quarter_bracket<S: Real>(extremal: &Extremal<S>, quantity: Quantity, level: S) -> Bracket<S> {
-    let Some(elliptic) = &extremal.elliptic else {
-        return elementary_bracket(extremal, quantity, level);
-    };
+fn quarter_bracket<S: Real>(
+    extremal: &Extremal<S>,
+    elliptic: &Elliptic<S>,
+    quantity: Quantity,
+    turns: S,
+) -> Bracket<S> {
     let (one, two) = (S::ONE, S::from_f64(2.0));
-    let lambda = elliptic.quarter_lambda;
+    let level = turns * S::PI;
     let at = |n: S| -> (S, S) {
-        match (quantity, extremal.quarter_phase(n)) {
-            (Quantity::Phase, Some(point)) => (point.phase - level, point.phase_rate),
-            (_, point) => (n * lambda - level, point.map_or(S::ZERO, |point| point.lambda_rate)),
+        let point = extremal.quarter_phase(elliptic, n, turns);
+        match quantity {
+            Quantity::Phase => (point.phase, point.phase_rate),
+            Quantity::Lambda => (point.lambda, point.lambda_rate),
         }
     };
+    let quarter_lambda = (S::PI + elliptic.excess) / two;
     let (mut first, mut last) = match (quantity, extremal.regime) {
-        (Quantity::Lambda, _) => ((level / lambda).floor(), (level / lambda).floor() + one),
-        (_, Regime::Oscillating) => {
-            // Θ gains 2λ(K) − π a half turn, and leads j times that by less than π/2 after j half turns.
-            let gain = two * lambda - S::PI;
-            let half = S::PI / two;
-            let first = ((level - half) / gain).floor();
-            (two * first.max(S::ZERO), two * ((level / gain).floor() + one))
+        (Quantity::Phase, Regime::Oscillating) => {
+            // Θ gains the excess in a half turn, and leads that by less than π/2 after whole half turns.
+            let first = ((level - S::PI / two) / elliptic.excess).floor();
+            (two * first, two * ((level / elliptic.excess).floor() + one))
         }
-        _ => ((level / lambda).floor(), ((level + S::PI) / lambda).floor() + one),
+        (Quantity::Phase, _) => ((level / quarter_lambda).floor(), ((level + S::PI) / quarter_lambda).floor() + one),
+        (Quantity::Lambda, _) => ((level / quarter_lambda).floor(), (level / quarter_lambda).floor() + one),
     };
     let mut below = at(first);
     while below.0 > S::ZERO && first > S::ZERO {
-        first = first - one;
+        first += -one;
         below = at(first);
     }
     let mut above = at(last);
@@ -295,7 +320,7 @@ fn quarter_bracket<S: Real>(extremal: &Extremal<S>, quantity: Quantity, level: S
 fn hermite_root<S: Real>(f0: S, f1: S, d0: S, d1: S) -> S {
     let (two, three) = (S::from_f64(2.0), S::from_f64(3.0));
     let rise = f1 - f0;
-    if !(rise > S::ZERO) {
+    if rise <= S::ZERO {
         return S::from_f64(0.5);
     }
     // Slopes above three times the mean would make the cubic leave the range of its end values.

@@ -36,7 +36,9 @@ pub enum StartError {
     #[error("p_theta = {0} is not a finite number")]
     MomentumNotFinite(f64),
     /// `p_θ` is so large that the angular momentum overflows.
-    #[error("p_theta = {p_theta} is too large for k = {k}: |p_theta| and |p_theta|/k must be at most {LARGEST_MOMENTUM:e}")]
+    #[error(
+        "p_theta = {p_theta} is too large for k = {k}: |p_theta| and |p_theta|/k must be at most {LARGEST_MOMENTUM:e}"
+    )]
     MomentumTooLarge {
         /// The value given.
         p_theta: f64,
