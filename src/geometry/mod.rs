@@ -1,4 +1,4 @@
-//! The article's mathematics: flows, tangents, closed forms. Built on numerics alone.
+//! The article's mathematics: metrics, flows, closed forms. Built on numerics alone; knows no files and no figures.
 
 pub mod serret_andoyer;
 pub mod spin;
