@@ -115,7 +115,7 @@ impl Scene {
 }
 
 /// Length of the part of a segment inside a rectangle.
-fn length_inside(a: Point, b: Point, rect: &Rect) -> f64 {
+pub fn length_inside(a: Point, b: Point, rect: &Rect) -> f64 {
     // Most segments are far away.
     if a.0.max(b.0) < rect.left || a.0.min(b.0) > rect.right || a.1.max(b.1) < rect.top || a.1.min(b.1) > rect.bottom {
         return 0.0;
