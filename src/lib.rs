@@ -1,6 +1,7 @@
 //! polhode
 
 pub mod check;
+pub mod cli;
 pub mod contract;
 pub mod effects;
 pub mod experiments;

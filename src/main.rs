@@ -1,2 +1,7 @@
 //! The `polhode` command.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    polhode::cli::dispatch::main().into()
+}

@@ -63,7 +63,11 @@ fn prepared(arguments: &PointArguments) -> Result<Question, String> {
         })?;
         if !metric.keys().contains(&key) {
             let hint = nearest(key, metric.keys().iter().copied());
-            return Err(format!("error: {} has no key {key:?}\n  it reads {}{hint}", metric.name(), metric.keys().join(", ")));
+            return Err(format!(
+                "error: {} has no key {key:?}\n  it reads {}{hint}",
+                metric.name(),
+                metric.keys().join(", ")
+            ));
         }
         if given.insert(key.to_owned(), Given::parse(value)).is_some() {
             return Err(format!("error: {key} is given twice"));
@@ -172,7 +176,11 @@ fn table(question: &Question, arguments: &PointArguments, input: &Path, output: 
     for column in starts.columns() {
         if metric.keys().contains(&column.name.as_str()) {
             if question.given.contains_key(&column.name) {
-                let text = format!("error: {} is both a column of {} and given on the command line", column.name, input.display());
+                let text = format!(
+                    "error: {} is both a column of {} and given on the command line",
+                    column.name,
+                    input.display()
+                );
                 return Err((Exit::Usage, text));
             }
             readers.push((column.name.clone(), column));
@@ -206,9 +214,13 @@ fn table(question: &Question, arguments: &PointArguments, input: &Path, output: 
     let answers: Vec<Result<Answer, point::PointError>> =
         pool.install(|| (0..starts.rows()).into_par_iter().map(row).collect());
 
-    let refused: Vec<(usize, &point::PointError)> =
-        answers.iter().enumerate().filter_map(|(index, answer)| answer.as_ref().err().map(|error| (index, error))).collect();
-    let result = joined(metric, &starts, &answers).map_err(|error| (Exit::Usage, format!("error: {}: {error}", input.display())))?;
+    let refused: Vec<(usize, &point::PointError)> = answers
+        .iter()
+        .enumerate()
+        .filter_map(|(index, answer)| answer.as_ref().err().map(|error| (index, error)))
+        .collect();
+    let result = joined(metric, &starts, &answers)
+        .map_err(|error| (Exit::Usage, format!("error: {}: {error}", input.display())))?;
     write_table(&result, output)?;
     let found = answers.iter().flatten().filter(|answer| answer.reason.is_none()).count();
     let mut text = format!("{} rows, {found} conjugate points, written to {}", starts.rows(), output.display());
@@ -245,12 +257,14 @@ fn joined(
     starts: &Table,
     answers: &[Result<Answer, point::PointError>],
 ) -> Result<Table, crate::table::TableError> {
-    let mut result = Table::builder(format!("points-{}", metric.name()), "first conjugate points, one a row of the input");
+    let mut result =
+        Table::builder(format!("points-{}", metric.name()), "first conjugate points, one a row of the input");
     for column in starts.columns() {
         result = result.push(Column { gaps: true, ..column.clone() });
     }
     for (index, (name, unit, meaning)) in metric.answers().iter().enumerate() {
-        let number = |answer: &Result<Answer, _>| answer.as_ref().ok().and_then(|a| a.numbers[index]).unwrap_or(f64::NAN);
+        let number =
+            |answer: &Result<Answer, _>| answer.as_ref().ok().and_then(|a| a.numbers[index]).unwrap_or(f64::NAN);
         result = result.column_with_gaps(*name, *unit, *meaning, answers.iter().map(number).collect::<Vec<f64>>());
     }
     let error = |answer: &Result<Answer, _>| answer.as_ref().ok().and_then(|a| a.error).unwrap_or(f64::NAN);
@@ -260,14 +274,20 @@ fn joined(
         Err(error) => error.to_string(),
     };
     result
-        .column_with_gaps("error", "1", "estimated relative error of t1", answers.iter().map(error).collect::<Vec<f64>>())
+        .column_with_gaps(
+            "error",
+            "1",
+            "estimated relative error of t1",
+            answers.iter().map(error).collect::<Vec<f64>>(),
+        )
         .column("route", "", "how it was computed", answers.iter().map(route).collect::<Vec<String>>())
         .column("reason", "", "why there is no conjugate point", answers.iter().map(reason).collect::<Vec<String>>())
         .build()
 }
 
 fn write_table(table: &Table, path: &Path) -> Result<(), Refusal> {
-    let failed = |error: &dyn std::fmt::Display| (Exit::Usage, format!("error: {} can't be written: {error}", path.display()));
+    let failed =
+        |error: &dyn std::fmt::Display| (Exit::Usage, format!("error: {} can't be written: {error}", path.display()));
     let bytes = if is_parquet(path) {
         table.to_parquet(&[]).map_err(|error| failed(&error))?
     } else {

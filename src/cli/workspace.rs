@@ -115,7 +115,7 @@ impl Workspace {
     /// # Errors
     /// No folder of configs, or an accuracy that is not accepted.
     pub fn find(place: &PlaceArguments) -> Result<Self, WorkspaceError> {
-        let accuracy = place.accuracy.as_deref().map(str::parse).transpose()?;
+        let accuracy: Option<Accuracy> = place.accuracy.as_deref().map(str::parse).transpose()?;
         let here = PathBuf::from(".");
         let experiments = match &place.experiments {
             Some(folder) => folder.clone(),
@@ -227,8 +227,8 @@ fn sort_key(id: &str) -> (String, u64, String) {
 fn load_one<'a>(id: &'a str, path: &'a Path) -> impl Fn(Option<Accuracy>) -> Result<Loaded, WorkspaceError> + 'a {
     move |accuracy| {
         let file = path.display().to_string();
-        let text = std::fs::read_to_string(path)
-            .map_err(|error| WorkspaceError::Unreadable { path: file.clone(), error })?;
+        let text =
+            std::fs::read_to_string(path).map_err(|error| WorkspaceError::Unreadable { path: file.clone(), error })?;
         let kind = config::peek_kind(&file, &text).map_err(|error| WorkspaceError::Configs(vec![error]))?;
         let experiment = experiments::ALL.iter().find(|experiment| experiment.kind == kind).ok_or_else(|| {
             WorkspaceError::UnknownKind(Box::new(UnknownKind {

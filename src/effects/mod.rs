@@ -1,4 +1,5 @@
 //! Node kinds: what a scene can call for. A kind belongs to its effect, never to a figure.
 
+pub mod point;
 pub mod product;
 pub mod scene;

@@ -45,6 +45,24 @@ impl Effect {
     }
 }
 
+/// The metrics, and the effects that each supports.
+pub const METRICS: &[(&str, &[Effect])] = &[
+    (
+        "serret-andoyer",
+        &[
+            Effect::Geodesics,
+            Effect::ConjugateLocus,
+            Effect::CutLocus,
+            Effect::WaveFront,
+            Effect::Curvature,
+            Effect::Potential,
+            Effect::Period,
+        ],
+    ),
+    ("spin", &[Effect::Geodesics, Effect::ConjugateLocus]),
+    ("rotation-group", &[Effect::ConjugateLocus, Effect::Attitude]),
+];
+
 /// A scene: `M` is the metric's part of the config, `S` the start's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,0 +1,167 @@
+//! What verbs that look at the graph share: configs planned, joined to a graph, beside a store and an output folder.
+
+use crate::check::values_toml::{self, Change, Values};
+use crate::cli::arguments::PlaceArguments;
+use crate::cli::collected;
+use crate::cli::console;
+use crate::cli::exit::Exit;
+use crate::cli::workspace::{Loaded, Workspace, WorkspaceError};
+use crate::contract::accuracy::Accuracy;
+use crate::contract::node::Address;
+use crate::contract::value::Findings;
+use crate::experiments::definition::{FINDINGS_FILE, FINDINGS_NODE};
+use crate::pipeline::graph::{Graph, Selection};
+use crate::pipeline::report::Report;
+use crate::pipeline::run::Options;
+use crate::pipeline::store::Store;
+use std::path::PathBuf;
+
+/// The version of the store's format, which is the name of its folder.
+const STORE_FORMAT: &str = "v1";
+
+/// Everything planned, nothing run.
+pub struct Session {
+    /// Where things lie.
+    pub workspace: Workspace,
+    /// The experiments that the targets need.
+    pub experiments: Vec<Loaded>,
+    /// Their graph.
+    pub graph: Graph,
+    /// What of it the targets need.
+    pub selection: Selection,
+    /// The store.
+    pub store: Store,
+    /// How to run.
+    pub options: Options,
+}
+
+/// Why a session can't begin: what to say, and how to end.
+pub struct Refused {
+    /// How the command ends.
+    pub exit: Exit,
+    /// What to say.
+    pub text: String,
+}
+
+impl Refused {
+    /// Says it, and gives the exit.
+    pub fn tell(self) -> Exit {
+        console::message(&format!("{} {}", console::paint("error:", "1;31"), self.text));
+        self.exit
+    }
+}
+
+impl From<WorkspaceError> for Refused {
+    fn from(error: WorkspaceError) -> Self {
+        let exit = match error {
+            WorkspaceError::NoRoot { .. }
+            | WorkspaceError::Unreadable { .. }
+            | WorkspaceError::Accuracy(_)
+            | WorkspaceError::UnknownTarget { .. } => Exit::Usage,
+            WorkspaceError::Configs(_) | WorkspaceError::UnknownKind(_) => Exit::Config,
+            WorkspaceError::Defect(_) => Exit::Defect,
+        };
+        Self { exit, text: error.to_string() }
+    }
+}
+
+/// A list of errors, one a line.
+fn lines<E: ToString>(errors: &[E]) -> String {
+    errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}
+
+impl Session {
+    /// Plans what the targets need; everything where there is none.
+    ///
+    /// # Errors
+    /// Wrong configs, unknown targets, no place to work in.
+    pub fn begin(place: &PlaceArguments, targets: &[String]) -> Result<Self, Refused> {
+        let workspace = Workspace::find(place)?;
+        let targets: Vec<String> = targets.iter().map(|target| workspace.relative(target)).collect();
+        // What is asked of values.toml is asked of the whole.
+        let of_values = |target: &String| [collected::ID, collected::VALUES_FILE].contains(&target.as_str());
+        let whole = targets.is_empty() || targets.iter().any(of_values);
+        let experiments = workspace.load(if whole { &[] } else { &targets })?;
+        let mut plans: Vec<_> = experiments.iter().map(|experiment| experiment.plan.clone()).collect();
+        if whole {
+            let ids: Vec<&str> = experiments.iter().map(|experiment| experiment.plan.id.as_str()).collect();
+            let plan = collected::plan(&ids);
+            plans.push(plan.map_err(|error| Refused { exit: Exit::Defect, text: error.to_string() })?);
+        }
+        let graph = Graph::join(plans).map_err(|errors| Refused { exit: Exit::Defect, text: lines(&errors) })?;
+        let selection =
+            graph.select(&targets).map_err(|error| Refused { exit: Exit::Usage, text: error.to_string() })?;
+        let store = Store::at(workspace.store.join(STORE_FORMAT));
+        let root = if workspace.root.as_os_str().is_empty() { PathBuf::from(".") } else { workspace.root.clone() };
+        let mut options = Options::new(root, workspace.out.clone());
+        if whole {
+            options.known_exports = Some(graph.export_paths());
+        }
+        options.unscanned = unscanned(&workspace);
+        Ok(Self { workspace, experiments, graph, selection, store, options })
+    }
+
+    /// The findings of an experiment, as stored for the present configs and code.
+    ///
+    /// # Errors
+    /// What keeps them from being had.
+    pub fn findings(&self, id: &str) -> Result<Findings, String> {
+        let address = Address::new(id, FINDINGS_NODE);
+        let bytes = crate::pipeline::forecast::stored(&self.graph, &self.store, &self.options, &address, FINDINGS_FILE)
+            .map_err(|error| error.to_string())?;
+        collected::findings(&bytes).map_err(|error| error.to_string())
+    }
+
+    /// The named values that are not what they were after the last run, old → new.
+    pub fn changed_values(&self, report: &Report) -> Vec<Change> {
+        let (mut old, mut new) = (Values::new(), Values::new());
+        for node in &report.nodes {
+            if node.address.node != FINDINGS_NODE || node.previous == node.key {
+                continue;
+            }
+            let read = |key: Option<crate::contract::digest::Digest>| {
+                let bytes = self.store.artifact(key?, FINDINGS_FILE).ok()?;
+                let values = collected::findings(&bytes).ok()?.values;
+                Some(values.into_iter().map(|value| (value.name.clone(), value)).collect())
+            };
+            // A first run changes nothing: there was nothing.
+            if let (Some(before), Some(now)) = (read(node.previous), read(node.key)) {
+                old.insert(node.address.experiment.clone(), before);
+                new.insert(node.address.experiment.clone(), now);
+            }
+        }
+        values_toml::changes(&old, &new)
+    }
+
+    /// The experiments of a run with targets whose values are not those that values.toml holds.
+    pub fn stale_in_values_file(&self) -> Vec<String> {
+        let Ok(text) = std::fs::read_to_string(self.workspace.out.join(collected::VALUES_FILE)) else {
+            return Vec::new();
+        };
+        let Ok(written) = values_toml::parse(&text) else { return Vec::new() };
+        let mut stale = Vec::new();
+        for experiment in &self.experiments {
+            let id = &experiment.plan.id;
+            let Ok(findings) = self.findings(id) else { continue };
+            let now = findings.values.into_iter().map(|value| (value.name.clone(), value)).collect();
+            let old = Values::from([(id.clone(), written.get(id).cloned().unwrap_or_default())]);
+            if !values_toml::changes(&old, &Values::from([(id.clone(), now)])).is_empty() {
+                stale.push(id.clone());
+            }
+        }
+        stale
+    }
+}
+
+/// The folders below the output folder that hold other things: measurements, the article page, other levels of accuracy.
+fn unscanned(workspace: &Workspace) -> Vec<String> {
+    let mut folders = vec!["measured".to_owned(), "article".to_owned(), Accuracy::Draft.to_string()];
+    for entry in std::fs::read_dir(&workspace.out).into_iter().flatten().flatten() {
+        if let Ok(name) = entry.file_name().into_string() {
+            if name.parse::<Accuracy>().is_ok() && !folders.contains(&name) {
+                folders.push(name);
+            }
+        }
+    }
+    folders
+}
