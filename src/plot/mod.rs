@@ -13,9 +13,25 @@
 //! not know what a geodesic is, and it takes no data but the numbers it is handed.
 
 pub mod axis;
+pub mod backend;
+pub mod clip;
 pub mod colour;
+pub mod draw;
+pub mod error;
 pub mod font;
+pub mod frame;
 pub mod label;
+pub mod layout;
+pub mod legend;
 pub mod mark;
 pub mod picture;
+pub mod pieces;
+pub mod place;
+pub mod render;
 pub mod role;
+pub mod sphere;
+pub mod svg;
+pub mod ticks;
+
+#[cfg(test)]
+mod gallery;

@@ -287,6 +287,8 @@ impl Panel {
 pub enum Place {
     /// In a corner.
     Corner(Corner),
+    /// In the corner that covers least.
+    FreeCorner,
     /// With its lower left corner at this fraction of the frame, from the lower left.
     At(f64, f64),
 }

@@ -224,7 +224,7 @@ impl Role {
             Role::Theta => line(C::VERMILLION, 1.0, &[5.0, 1.6], Level::Curve),
             Role::Phi => line(C::BLUE, 1.0, SOLID, Level::Curve),
             Role::Psi => line(C::GREEN, 1.0, &[5.0, 1.5, 1.0, 1.5], Level::Curve),
-            Role::SeriesA => series(C::BLUE, SOLID, Marker::Disc),
+            Role::SeriesA => series(C::SKY, SOLID, Marker::Disc),
             Role::SeriesB => series(C::VERMILLION, &[4.0, 1.5], Marker::Square),
             Role::SeriesC => series(C::GREEN, &[1.5, 1.5], Marker::Triangle),
             Role::SeriesD => series(C::PURPLE, &[6.0, 1.5, 1.5, 1.5], Marker::Diamond),
@@ -283,7 +283,8 @@ mod tests {
                     let (x, y) = (a.look(), b.look());
                     // A separatrix and a conjugate locus are both continuous and 1.2 pt (article and design): named directly.
                     let allowed = matches!((a, b), (Role::Separatrix, Role::ConjugateLocus));
-                    assert!(allowed || x.dash != y.dash || (x.width - y.width).abs() > 0.15, "{a:?} {b:?}");
+                    let differ = x.dash != y.dash || x.marker != y.marker || (x.width - y.width).abs() > 0.15;
+                    assert!(allowed || differ, "{a:?} {b:?}");
                 }
             }
         }

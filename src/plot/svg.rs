@@ -1,0 +1,534 @@
+//! The SVG document: groups, paths, texts with tspans, clip paths; sizes in millimetres, coordinates in points.
+//!
+//! Everything that reaches the page is a whole number of hundredths of a point, written exactly. The document remembers the
+//! box of every text, so that a test can ask whether texts overlap or leave the page. It knows no time, host or path.
+
+use super::colour::Colour;
+use super::font;
+use super::label::{Label, Run, Script};
+use std::fmt::Write as _;
+
+/// Points in a millimetre: 72/25.4.
+pub const POINTS_PER_MM: f64 = 72.0 / 25.4;
+
+/// What a text is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TextKind {
+    /// At a tick of a horizontal axis.
+    TickX,
+    /// At a tick of a vertical axis.
+    TickY,
+    /// Name of an axis.
+    AxisLabel,
+    /// Letter or title of a panel.
+    PanelTitle,
+    /// Beside a curve, a point or a line, or where the experiment put it.
+    Direct,
+    /// In a legend or a colour key.
+    Legend,
+}
+
+/// An upright rectangle on the page, in points from the upper left corner.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rect {
+    /// Left edge.
+    pub left: f64,
+    /// Upper edge.
+    pub top: f64,
+    /// Right edge.
+    pub right: f64,
+    /// Lower edge.
+    pub bottom: f64,
+}
+
+impl Rect {
+    /// Width.
+    pub fn width(&self) -> f64 {
+        self.right - self.left
+    }
+
+    /// Height.
+    pub fn height(&self) -> f64 {
+        self.bottom - self.top
+    }
+
+    /// Whether the two have more than `slack` points in common in both directions.
+    pub fn overlaps(&self, other: &Rect, slack: f64) -> bool {
+        self.left + slack < other.right
+            && other.left + slack < self.right
+            && self.top + slack < other.bottom
+            && other.top + slack < self.bottom
+    }
+
+    /// Whether `other` lies inside, up to `slack` points.
+    pub fn holds(&self, other: &Rect, slack: f64) -> bool {
+        other.left >= self.left - slack
+            && other.right <= self.right + slack
+            && other.top >= self.top - slack
+            && other.bottom <= self.bottom + slack
+    }
+
+    /// Larger by `by` points on every side.
+    pub fn grown(&self, by: f64) -> Rect {
+        Rect { left: self.left - by, top: self.top - by, right: self.right + by, bottom: self.bottom + by }
+    }
+}
+
+/// A text on the page and the room it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextBox {
+    /// The letters.
+    pub text: String,
+    /// What it is for.
+    pub kind: TextKind,
+    /// Its panel, counted from 0; `None` for the figure's own texts.
+    pub panel: Option<usize>,
+    /// Its box.
+    pub rect: Rect,
+}
+
+/// Which point of a text its position is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Anchor {
+    /// Its left end.
+    Start,
+    /// Its middle.
+    Middle,
+    /// Its right end.
+    End,
+}
+
+/// How a text is written.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TextStyle {
+    /// Font size in points.
+    pub size: f64,
+    /// Colour.
+    pub colour: Colour,
+    /// Which point of it its position is (vertically: always the base line).
+    pub anchor: Anchor,
+    /// With a white rim.
+    pub halo: bool,
+    /// Turned by a quarter, to be read from the right side of the page.
+    pub upright: bool,
+    /// What it is for.
+    pub kind: TextKind,
+}
+
+/// The line and fill that shapes inherit from their group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Pen {
+    colour: Colour,
+    width: i32,
+    filled: bool,
+}
+
+/// An SVG document under way.
+#[derive(Debug)]
+pub struct Document {
+    width: i32,
+    height: i32,
+    width_mm: f64,
+    height_mm: f64,
+    defs: String,
+    body: String,
+    pens: Vec<Option<Pen>>,
+    panel: Option<usize>,
+    boxes: Vec<TextBox>,
+}
+
+/// Points to whole hundredths.
+pub fn hundredths(points: f64) -> i32 {
+    libm::round(points * 100.0) as i32
+}
+
+/// Writes hundredths as a decimal number without needless zeros.
+fn number(out: &mut String, value: i32) {
+    let size = value.unsigned_abs();
+    let sign = if value < 0 { "-" } else { "" };
+    let _ = match size % 100 {
+        0 => write!(out, "{sign}{}", size / 100),
+        part if part % 10 == 0 => write!(out, "{sign}{}.{}", size / 100, part / 10),
+        part => write!(out, "{sign}{}.{part:02}", size / 100),
+    };
+}
+
+fn text_of(value: i32) -> String {
+    let mut out = String::new();
+    number(&mut out, value);
+    out
+}
+
+/// Writes a text so that XML reads it back; characters that XML forbids become U+FFFD.
+pub fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for letter in text.chars() {
+        match letter {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            '\t' | '\n' => out.push(letter),
+            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
+            _ => out.push(letter),
+        }
+    }
+    out
+}
+
+impl Document {
+    /// An empty page.
+    pub fn new(width_mm: f64, height_mm: f64) -> Self {
+        Self {
+            width: hundredths(width_mm * POINTS_PER_MM),
+            height: hundredths(height_mm * POINTS_PER_MM),
+            width_mm,
+            height_mm,
+            defs: String::new(),
+            body: String::new(),
+            pens: Vec::new(),
+            panel: None,
+            boxes: Vec::new(),
+        }
+    }
+
+    /// Size of the page in hundredths of a point.
+    pub fn size(&self) -> (u32, u32) {
+        (self.width.unsigned_abs(), self.height.unsigned_abs())
+    }
+
+    /// The page as a rectangle.
+    pub fn page(&self) -> Rect {
+        Rect { left: 0.0, top: 0.0, right: f64::from(self.width) / 100.0, bottom: f64::from(self.height) / 100.0 }
+    }
+
+    /// The boxes of all texts written so far.
+    pub fn boxes(&self) -> &[TextBox] {
+        &self.boxes
+    }
+
+    /// The panel to which the following texts belong.
+    pub fn set_panel(&mut self, panel: Option<usize>) {
+        self.panel = panel;
+    }
+
+    fn indent(&mut self) {
+        let depth = self.pens.len() + 1;
+        self.body.extend(std::iter::repeat_n(' ', depth));
+    }
+
+    /// Opens a group with these attributes (values are escaped).
+    pub fn open(&mut self, attributes: &[(&str, &str)]) {
+        self.indent();
+        self.body.push_str("<g");
+        for (key, value) in attributes {
+            let _ = write!(self.body, " {key}=\"{}\"", escape(value));
+        }
+        self.body.push_str(">\n");
+        let inherited = self.pens.last().copied().flatten();
+        self.pens.push(inherited);
+    }
+
+    /// Opens a layer of lines: its shapes inherit colour, width and dash.
+    pub fn open_lines(&mut self, attributes: &[(&str, &str)], colour: Colour, width: f64, dash: &[f64]) {
+        let pattern: Vec<String> = dash.iter().map(|&length| text_of(hundredths(length))).collect();
+        let (stroke, thick, pattern) = (colour.hex(), text_of(hundredths(width)), pattern.join(" "));
+        let mut all = attributes.to_vec();
+        all.extend([("fill", "none"), ("stroke", stroke.as_str()), ("stroke-width", thick.as_str())]);
+        all.push(("stroke-linecap", if dash.is_empty() { "round" } else { "butt" }));
+        if !dash.is_empty() {
+            all.push(("stroke-dasharray", pattern.as_str()));
+        }
+        self.open(&all);
+        self.set_pen(Pen { colour, width: hundredths(width), filled: false });
+    }
+
+    /// Opens a layer of fills: its shapes inherit the colour.
+    pub fn open_fills(&mut self, attributes: &[(&str, &str)], colour: Colour) {
+        let paint = colour.hex();
+        let mut all = attributes.to_vec();
+        all.extend([("fill", paint.as_str()), ("stroke", "none")]);
+        self.open(&all);
+        self.set_pen(Pen { colour, width: 0, filled: true });
+    }
+
+    fn set_pen(&mut self, pen: Pen) {
+        if let Some(last) = self.pens.last_mut() {
+            *last = Some(pen);
+        }
+    }
+
+    /// Closes the group opened last.
+    pub fn close(&mut self) {
+        self.pens.pop();
+        self.indent();
+        self.body.push_str("</g>\n");
+    }
+
+    /// Defines a rectangle to clip with, in hundredths of a point.
+    pub fn clip(&mut self, id: &str, (left, top): (i32, i32), (right, bottom): (i32, i32)) {
+        let _ = write!(self.defs, "  <clipPath id=\"{}\"><rect", escape(id));
+        for (key, value) in [("x", left), ("y", top), ("width", right - left), ("height", bottom - top)] {
+            let _ = write!(self.defs, " {key}=\"{}\"", text_of(value));
+        }
+        self.defs.push_str("/></clipPath>\n");
+    }
+
+    /// What a shape must say because its group does not.
+    fn paint(&self, colour: Colour, width: i32, filled: bool) -> String {
+        let pen = self.pens.last().copied().flatten();
+        let mut out = String::new();
+        let same = pen.is_some_and(|pen| pen.filled == filled && pen.colour == colour);
+        if filled && !same {
+            let _ = write!(out, " fill=\"{}\"", colour.hex());
+            if pen.is_some_and(|pen| !pen.filled) {
+                out.push_str(" stroke=\"none\"");
+            }
+        } else if !filled {
+            if pen.is_none_or(|pen| pen.filled) {
+                out.push_str(" fill=\"none\"");
+            }
+            if !same {
+                let _ = write!(out, " stroke=\"{}\"", colour.hex());
+            }
+            if pen.is_none_or(|pen| pen.filled || pen.width != width) {
+                let _ = write!(out, " stroke-width=\"{}\"", text_of(width));
+            }
+        }
+        out
+    }
+
+    /// A polygonal line, or a filled or closed polygon. Points that fall on the one before are left out; a single point
+    /// draws nothing.
+    pub fn path(
+        &mut self,
+        points: impl IntoIterator<Item = (i32, i32)>,
+        closed: bool,
+        filled: bool,
+        colour: Colour,
+        width: i32,
+    ) {
+        let mut data = String::new();
+        let (mut last, mut count) = (None, 0);
+        for point in points {
+            if last == Some(point) {
+                continue;
+            }
+            // The first command after M is L; further points need no letter.
+            data.push_str(match count {
+                0 => "M",
+                1 => "L",
+                _ => " ",
+            });
+            number(&mut data, point.0);
+            if point.1 >= 0 {
+                data.push(' ');
+            }
+            number(&mut data, point.1);
+            last = Some(point);
+            count += 1;
+        }
+        if count < 2 {
+            return;
+        }
+        if closed {
+            data.push('Z');
+        }
+        self.indent();
+        let paint = self.paint(colour, width, filled);
+        let _ = writeln!(self.body, "<path d=\"{data}\"{paint}/>");
+    }
+
+    /// A rectangle.
+    pub fn rect(&mut self, a: (i32, i32), b: (i32, i32), filled: bool, colour: Colour, width: i32) {
+        let (left, top) = (a.0.min(b.0), a.1.min(b.1));
+        self.indent();
+        self.body.push_str("<rect");
+        for (key, value) in [("x", left), ("y", top), ("width", (a.0 - b.0).abs()), ("height", (a.1 - b.1).abs())] {
+            let _ = write!(self.body, " {key}=\"{}\"", text_of(value));
+        }
+        let paint = self.paint(colour, width, filled);
+        let _ = writeln!(self.body, "{paint}/>");
+    }
+
+    /// A circle.
+    pub fn circle(&mut self, centre: (i32, i32), radius: i32, filled: bool, colour: Colour, width: i32) {
+        self.indent();
+        self.body.push_str("<circle");
+        for (key, value) in [("cx", centre.0), ("cy", centre.1), ("r", radius)] {
+            let _ = write!(self.body, " {key}=\"{}\"", text_of(value));
+        }
+        let paint = self.paint(colour, width, filled);
+        let _ = writeln!(self.body, "{paint}/>");
+    }
+
+    /// The box a text would take, in points, with its base line at `at`.
+    pub fn text_rect(label: &Label, at: (f64, f64), size: f64, anchor: Anchor, upright: bool) -> Rect {
+        let width = label.width(size);
+        let (up, down) = label.extent(size);
+        let before = match anchor {
+            Anchor::Start => 0.0,
+            Anchor::Middle => width / 2.0,
+            Anchor::End => width,
+        };
+        if upright {
+            // Read from the right: letters run upwards, their tops to the left.
+            Rect { left: at.0 - up, right: at.0 + down, top: at.1 - (width - before), bottom: at.1 + before }
+        } else {
+            Rect { left: at.0 - before, right: at.0 - before + width, top: at.1 - up, bottom: at.1 + down }
+        }
+    }
+
+    /// Writes a text with its base line at `at` (points) and remembers its box.
+    pub fn text(&mut self, label: &Label, at: (f64, f64), style: TextStyle) {
+        if label.is_empty() {
+            return;
+        }
+        let rect = Self::text_rect(label, at, style.size, style.anchor, style.upright);
+        self.boxes.push(TextBox { text: label.to_plain(), kind: style.kind, panel: self.panel, rect });
+        self.indent();
+        let (x, y) = (text_of(hundredths(at.0)), text_of(hundredths(at.1)));
+        let _ = write!(self.body, "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\"", text_of(hundredths(style.size)));
+        let _ = write!(self.body, " fill=\"{}\"", style.colour.hex());
+        match style.anchor {
+            Anchor::Start => {}
+            Anchor::Middle => self.body.push_str(" text-anchor=\"middle\""),
+            Anchor::End => self.body.push_str(" text-anchor=\"end\""),
+        }
+        if style.halo {
+            self.body.push_str(" stroke=\"#ffffff\" stroke-width=\"1.8\" paint-order=\"stroke\"");
+        }
+        if style.upright {
+            let _ = write!(self.body, " transform=\"rotate(-90 {x} {y})\"");
+        }
+        self.body.push('>');
+        let (starts, _) = label.advances(style.size);
+        let (mut shift, mut pen) = (0, 0.0_f64);
+        for (run, start) in label.runs().iter().zip(starts) {
+            self.run(run, style.size, start - pen, &mut shift);
+            pen = start + super::label::run_width(run, style.size);
+        }
+        self.body.push_str("</text>\n");
+    }
+
+    /// One run as a tspan: moved by `move_by` points from where the pen is, raised or lowered from the current `shift`.
+    fn run(&mut self, run: &Run, size: f64, move_by: f64, shift: &mut i32) {
+        let wanted = match run.script {
+            Script::Base => 0,
+            Script::Sub => hundredths(font::SUB_SHIFT * size),
+            Script::Super => -hundredths(font::SUPER_SHIFT * size),
+        };
+        let mut attributes = String::new();
+        let dx = hundredths(move_by);
+        if dx != 0 {
+            let _ = write!(attributes, " dx=\"{}\"", text_of(dx));
+        }
+        if wanted != *shift {
+            let _ = write!(attributes, " dy=\"{}\"", text_of(wanted - *shift));
+            *shift = wanted;
+        }
+        if run.script != Script::Base {
+            let _ = write!(attributes, " font-size=\"{}\"", text_of(hundredths(font::SCRIPT_SIZE * size)));
+        }
+        if run.italic {
+            attributes.push_str(" font-style=\"italic\"");
+        }
+        if run.bold {
+            attributes.push_str(" font-weight=\"bold\"");
+        }
+        if run.over {
+            attributes.push_str(" text-decoration=\"overline\"");
+        }
+        let letters = escape(&run.text);
+        let _ = if attributes.is_empty() {
+            write!(self.body, "{letters}")
+        } else {
+            write!(self.body, "<tspan{attributes}>{letters}</tspan>")
+        };
+    }
+
+    /// The whole file.
+    pub fn finish(&self, title: &str, caption: &str, metadata: &[(String, String)]) -> Vec<u8> {
+        let mut out = String::with_capacity(self.body.len() + 4096);
+        let (width, height) = (text_of(self.width), text_of(self.height));
+        out.push_str("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\"");
+        let _ = write!(out, " width=\"{}mm\"", text_of(hundredths(self.width_mm)));
+        let _ = write!(out, " height=\"{}mm\" viewBox=\"0 0 {width} {height}\"", text_of(hundredths(self.height_mm)));
+        out.push_str(" font-family=\"Helvetica, Arial, 'Liberation Sans', sans-serif\" stroke-linejoin=\"round\"");
+        out.push_str(" role=\"img\" xml:space=\"preserve\">\n");
+        let _ = writeln!(out, " <title>{}</title>", escape(title));
+        if !caption.is_empty() {
+            let _ = writeln!(out, " <desc>{}</desc>", escape(caption));
+        }
+        if !metadata.is_empty() {
+            out.push_str(" <metadata>\n  <polhode xmlns=\"urn:polhode:figure\">\n");
+            for (key, value) in metadata {
+                let _ = writeln!(out, "   <entry key=\"{}\">{}</entry>", escape(key), escape(value));
+            }
+            out.push_str("  </polhode>\n </metadata>\n");
+        }
+        if !self.defs.is_empty() {
+            let _ = write!(out, " <defs>\n{} </defs>\n", self.defs);
+        }
+        let _ = writeln!(out, " <rect width=\"{width}\" height=\"{height}\" fill=\"#ffffff\"/>");
+        out.push_str(&self.body);
+        out.push_str("</svg>\n");
+        out.into_bytes()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_exactly_and_shortly() {
+        for (value, text) in [(0, "0"), (5, "0.05"), (-5, "-0.05"), (1230, "12.3"), (-1200, "-12"), (1201, "12.01")] {
+            assert_eq!(text_of(value), text);
+        }
+        assert_eq!(hundredths(1.005000001), 101);
+    }
+
+    #[test]
+    fn xml_reads_texts_back() {
+        assert_eq!(escape("a<b & \"c\" > 'd'\u{7}"), "a&lt;b &amp; &quot;c&quot; &gt; &#39;d&#39;\u{fffd}");
+    }
+
+    #[test]
+    fn shapes_say_only_what_their_group_does_not() {
+        let mut page = Document::new(89.0, 50.0);
+        page.open_lines(&[("id", "x")], Colour::BLUE, 0.5, &[2.0, 1.0]);
+        page.path([(0, 0), (0, 0), (150, -20)], false, false, Colour::BLUE, 50);
+        page.path([(0, 0), (10, 10)], false, false, Colour::ORANGE, 50);
+        page.path([(7, 7), (7, 7)], false, false, Colour::BLUE, 50);
+        page.close();
+        let text = String::from_utf8(page.finish("t", "", &[])).unwrap();
+        assert!(text.contains("<path d=\"M0 0L1.5-0.2\"/>"), "{text}");
+        assert!(text.contains("stroke-dasharray=\"2 1\""));
+        assert!(text.contains("<path d=\"M0 0L0.1 0.1\" stroke=\"#e69f00\"/>"));
+        assert_eq!(text.matches("<path").count(), 2, "a path of one point draws nothing");
+        assert!(text.contains("width=\"89mm\" height=\"50mm\" viewBox=\"0 0 252.28 141.73\""));
+    }
+
+    #[test]
+    fn scripts_are_moved_and_moved_back() {
+        let mut page = Document::new(89.0, 50.0);
+        let style = TextStyle {
+            size: 10.0,
+            colour: Colour::BLACK,
+            anchor: Anchor::Start,
+            halo: false,
+            upright: false,
+            kind: TextKind::Direct,
+        };
+        page.text(&Label::parse("x_1^2y"), (10.0, 20.0), style);
+        let text = String::from_utf8(page.finish("", "", &[])).unwrap();
+        // 5.56·0.72 = 4.00 back to the start of the subscript; −3.6 − 1.8 up; 3.6 down again.
+        assert!(text.contains(">x<tspan dy=\"1.8\" font-size=\"7.2\">1</tspan>"), "{text}");
+        assert!(
+            text.contains("<tspan dx=\"-4\" dy=\"-5.4\" font-size=\"7.2\">2</tspan><tspan dy=\"3.6\">y</tspan>"),
+            "{text}"
+        );
+    }
+}
