@@ -217,7 +217,7 @@ impl<D: Definition> Compute for Picturing<D> {
             picture.metadata.push((format!("table {name}"), file.logical.to_string()));
         }
         let bytes =
-            Ok::<Vec<u8>, NodeError>(Vec::new()).map_err(|error| NodeError::new(format!("drawing: {error}")))?;
+            crate::plot::render::render(&picture).map_err(|error| NodeError::new(format!("drawing: {error}")))?;
         Ok(Product { artifacts: vec![Artifact::opaque(PICTURE_FILE, bytes)], work: Work::default() })
     }
 }
