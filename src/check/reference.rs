@@ -202,7 +202,8 @@ mod tests {
     #[test]
     fn the_embedded_references_are_read() {
         let references = References::embedded().expect("well formed");
-        let config = config("kind = \"remark_3_25\"\nA = 1.5\nB = 2 # an integer\nC = 2.80\n");
+        let config =
+            config("kind = \"remark_3_25\"\n[scene.metric.serret-andoyer]\nA = 1.5\nB = 2 # an integer\nC = 2.80\n");
         let next = T_STAR.next_up();
         let compared = references.compare("remark_3_25", &[value("t_star", next)], &config);
         let t_star = compared.iter().find(|c| c.name == "remark_3_25/t_star").expect("there");
@@ -216,7 +217,11 @@ mod tests {
     fn the_tolerance_and_the_config_decide() {
         let references = References::embedded().expect("well formed");
         let compare = |ours: f64, text: &str| {
-            let compared = references.compare("remark_3_25", &[value("t_star", ours)], &config(text));
+            let compared = references.compare(
+                "remark_3_25",
+                &[value("t_star", ours)],
+                &config(&format!("[scene.metric.serret-andoyer]\n{text}")),
+            );
             compared.iter().find(|c| c.name == "remark_3_25/t_star").expect("there").agreement
         };
         let own = "A = 1.5\nB = 2.0\nC = 2.8\n";

@@ -1,5 +1,8 @@
 //! Node kinds: what a scene can call for. A kind belongs to its effect, never to a figure.
 
 pub mod point;
+pub mod counted;
 pub mod product;
+pub mod quantities;
 pub mod scene;
+pub mod serret_andoyer;

@@ -5,6 +5,7 @@
 use crate::contract::accuracy::Accuracy;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::sweep::Sweep;
+use crate::geometry::serret_andoyer::Metric;
 use serde::{Deserialize, Serialize};
 
 /// An effect that a scene can call for.
@@ -139,7 +140,39 @@ pub struct Inertia {
     pub c: f64,
 }
 
+impl From<Inertia> for crate::effects::serret_andoyer::body::Body {
+    fn from(inertia: Inertia) -> Self {
+        Self { a: inertia.a, b: inertia.b, c: inertia.c }
+    }
+}
+
+/// `start = { phi0 = 0.0 }`: where extremals of the Serret-Andoyer metric start, in all directions.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Phi0Start {
+    /// Distance from the equator (length), `|phi0| < K(k)/alpha`: a number, a list or a range.
+    pub phi0: Sweep,
+}
+
+impl Phi0Start {
+    /// Refuses starts outside the strip of a metric, whose `K(k)/α` is `half_width`.
+    ///
+    /// # Errors
+    /// The first value outside.
+    pub fn validate(&self, half_width: f64) -> Result<(), Invalid> {
+        let accepted = format!("|phi0| < K(k)/alpha = {half_width:.6}");
+        self.phi0.validate_each("scene.start.phi0", &accepted, |phi0| phi0.abs() < half_width)
+    }
+}
+
 impl Inertia {
+    /// Which config keys the leaves below `body` of a node come from.
+    pub fn origins(metric: &str) -> Vec<(&'static str, String)> {
+        [("body.A", "A"), ("body.B", "B"), ("body.C", "C")]
+            .map(|(leaf, name)| (leaf, format!("scene.metric.{metric}.{name}")))
+            .to_vec()
+    }
+
     /// Refuses anything but `0 < A < B < C`, finite, and names the key below `prefix`.
     ///
     /// # Errors
@@ -160,6 +193,14 @@ impl Inertia {
 impl Validate for SerretAndoyerMetric {
     fn validate(&self) -> Result<(), Invalid> {
         self.serret_andoyer.validate("scene.metric.serret-andoyer")
+    }
+}
+
+impl SerretAndoyerMetric {
+    /// The half-width `K(k)/α` of the strip in which starts lie; zero where the inertia is refused.
+    pub fn half_width(&self) -> f64 {
+        let Inertia { a, b, c } = self.serret_andoyer;
+        Metric::new(a, b, c).map_or(0.0, |metric| metric.half_width())
     }
 }
 

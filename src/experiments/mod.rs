@@ -1,6 +1,7 @@
 //! The experiments, by name. Adding one costs its file, its config and one word here.
 
 pub mod definition;
+pub mod findings;
 pub mod nodes;
 #[cfg(test)]
 pub mod preview;
@@ -13,4 +14,4 @@ macro_rules! experiments {
     };
 }
 
-experiments! {}
+experiments! { remark_3_25 }

@@ -1,0 +1,72 @@
+//! The body that a Serret-Andoyer node reads, and the columns that its tables of conjugate points share.
+//!
+//! A start is `φ0` with `δ = B p_θ² − 1` and the sign of `φ'`: exact inputs, so that the second route solves the same problem.
+
+use crate::contract::node::NodeError;
+use crate::effects::product::failed;
+use crate::geometry::serret_andoyer::{Branch, Clairaut, Extremal, Metric, Start};
+use crate::numerics::real::Real;
+use crate::table::{Table, TableError};
+use serde::Serialize;
+
+/// Inverse moments of inertia, `A < B < C`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Body {
+    /// Inverse of the largest moment of inertia.
+    #[serde(rename = "A")]
+    pub a: f64,
+    /// Inverse of the middle moment of inertia.
+    #[serde(rename = "B")]
+    pub b: f64,
+    /// Inverse of the smallest moment of inertia.
+    #[serde(rename = "C")]
+    pub c: f64,
+}
+
+impl Body {
+    /// The metric in any scalar.
+    ///
+    /// # Errors
+    /// Not `0 < A < B < C`.
+    pub fn metric<S: Real>(&self) -> Result<Metric<S>, NodeError> {
+        Metric::new(S::from_f64(self.a), S::from_f64(self.b), S::from_f64(self.c)).map_err(failed("metric"))
+    }
+}
+
+/// A start at `(θ, φ) = (0, φ0)` with arc length as time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ClairautStart {
+    /// Distance from the equator.
+    pub phi0: f64,
+    /// `δ = B p_θ² − 1`, positive when oscillating.
+    pub delta: f64,
+    /// The sign of `φ'`: 1 or −1.
+    pub branch: i64,
+}
+
+impl ClairautStart {
+    /// The extremal that starts there.
+    ///
+    /// # Errors
+    /// No such start.
+    pub fn extremal(&self, metric: &Metric) -> Result<Extremal, NodeError> {
+        let branch = if self.branch < 0 { Branch::Descending } else { Branch::Ascending };
+        let start = Start::Darboux { phi0: self.phi0, clairaut: Clairaut::Delta(self.delta), branch };
+        Extremal::new(metric, start).map_err(failed(&self.to_string()))
+    }
+
+    /// The starts in a table's columns `phi0`, `delta`, `branch`.
+    ///
+    /// # Errors
+    /// A column that is missing.
+    pub fn of_table(table: &Table) -> Result<Vec<Self>, TableError> {
+        let (phi0, delta, branch) = (table.f64s("phi0")?, table.f64s("delta")?, table.ints("branch")?);
+        Ok((0..table.rows()).map(|i| Self { phi0: phi0[i], delta: delta[i], branch: branch[i] }).collect())
+    }
+}
+
+impl std::fmt::Display for ClairautStart {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "phi0 = {:?}, delta = {:?}, branch = {}", self.phi0, self.delta, self.branch)
+    }
+}

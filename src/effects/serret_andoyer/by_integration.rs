@@ -1,0 +1,136 @@
+//! Conjugate points by integration: the second route beside the closed forms, row by row of their table.
+//!
+//! The flow (9) with one Jacobi field from `y0 = π/2 + am(αφ0|k)`, `p_x = √((1+δ)/B)`, `p_y = ±√((1 − p_x² Z)/(C − Z))`, until δy vanishes
+//! first. No elliptic integral of the extremal enters; the chart is needed only to start and to read φ.
+//!
+//! **What integration can give.** The separatrix multiplies every error made near the start by up to `e^(M t) ~ 1/δ`: in f64 the
+//! time is lost by about `3 ε/δ`. So rows with `δ` below [`DOUBLE_DOUBLE_BELOW`] are integrated in double-double arithmetic, and one
+//! allowed difference serves all rows. Starts and δ are exact inputs of both routes, so the difference is all error.
+
+use super::body::{Body, ClairautStart};
+use crate::contract::accuracy::{ARTICLE, Accuracy};
+use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
+use crate::contract::work::Work;
+use crate::effects::counted::integrated;
+use crate::effects::product::{failed, input_table, product};
+use crate::geometry::serret_andoyer::flow::first_conjugate_time_by_integration;
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::real::Real;
+use crate::table::Table;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// The input: a table with columns `phi0`, `delta`, `branch`, `t1`, `theta`, `phi`.
+pub const INPUT: &str = "points";
+/// Rows with `δ` below this are integrated in double-double.
+pub const DOUBLE_DOUBLE_BELOW: f64 = 1e-3;
+/// The relative difference of the two routes that is allowed at full accuracy.
+pub const ALLOWED: f64 = 1e-12;
+
+/// The second route of a table of conjugate points.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ConjugatePointsByIntegration {
+    /// The body.
+    pub body: Body,
+    /// Relative error per step.
+    pub tolerance: f64,
+    /// Largest relative difference allowed between the routes.
+    pub allowed: f64,
+}
+
+impl ConjugatePointsByIntegration {
+    /// At an accuracy: full accuracy for `article`, a tenth of what is asked otherwise.
+    pub fn new(body: Body, accuracy: Accuracy) -> Self {
+        let asked = accuracy.relative_error();
+        let full = asked <= ARTICLE;
+        let tolerance = if full { f64::EPSILON } else { asked / 10.0 };
+        Self { body, tolerance, allowed: if full { ALLOWED } else { asked.max(ALLOWED) } }
+    }
+}
+
+/// The kind.
+pub const KIND: Kind = Kind {
+    name: "serret-andoyer-conjugate-points-by-integration",
+    summary: "first conjugate points by integrating the flow with a Jacobi field: the second route",
+    code: &[
+        "effects/serret_andoyer/by_integration.rs",
+        "effects/serret_andoyer/body.rs",
+        "effects/counted.rs",
+        "effects/product.rs",
+        "geometry/serret_andoyer",
+        "numerics",
+        "table",
+    ],
+    measurement: false,
+};
+
+/// Time, θ and φ of a conjugate point, and what finding it took.
+type Found = (f64, f64, f64, Work);
+
+/// One row in the scalar `S`; `t_max` is a time before which there is a conjugate point.
+fn integrate<S: Real>(body: &Body, start: &ClairautStart, t_max: f64, tolerance: f64) -> Result<Found, NodeError> {
+    let metric = body.metric::<S>()?;
+    let (a, b, c) = (metric.a(), metric.b(), metric.c());
+    let (phi0, delta) = (S::from_f64(start.phi0), S::from_f64(start.delta));
+    let jacobi = metric.jacobi_of_phi(phi0);
+    let (z, c_minus_z) = (metric.z_of_sine(jacobi.sn), metric.c_minus_z_of_cosine(jacobi.cn));
+    let p_x = ((S::ONE + delta) / b).sqrt();
+    // 1 − p_x² Z = [(B − Z) − Zδ]/B; at a cusp it is zero up to the rounding of δ.
+    let in_y = ((b - a) * jacobi.cn * jacobi.cn - z * delta) / b;
+    let p_y = (in_y.max(S::ZERO) / c_minus_z).sqrt();
+    let p_y = if start.branch < 0 { -p_y } else { p_y };
+    let y0 = S::PI * S::from_f64(0.5) + jacobi.am;
+    let found = first_conjugate_time_by_integration(a, b, c, y0, p_x, p_y, S::ZERO, S::from_f64(t_max), tolerance)
+        .map_err(failed(&start.to_string()))?;
+    let phi = metric.phi_of_y(found.y).to_f64();
+    Ok((found.t1.to_f64(), found.x.to_f64(), phi, integrated(found.work)))
+}
+
+impl Compute for ConjugatePointsByIntegration {
+    fn kind(&self) -> &'static Kind {
+        &KIND
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        let points = input_table(inputs, INPUT)?;
+        let starts = ClairautStart::of_table(&points).map_err(failed("second route"))?;
+        let read = |name: &str| points.f64s(name).map_err(failed("second route"));
+        let (t1, theta, phi) = (read("t1")?, read("theta")?, read("phi")?);
+        let long = |start: &ClairautStart| start.delta < DOUBLE_DOUBLE_BELOW;
+        let rows = (starts.par_iter().zip(t1))
+            .map(|(start, t1)| {
+                // The first conjugate time lies between T/2 and T: twice the first route's is beyond it.
+                let t_max = 2.0 * t1;
+                if long(start) {
+                    let tolerance =
+                        if self.tolerance > f64::EPSILON { self.tolerance } else { DOUBLE_DOUBLE_TOLERANCE };
+                    integrate::<DoubleDouble>(&self.body, start, t_max, tolerance)
+                } else {
+                    integrate::<f64>(&self.body, start, t_max, self.tolerance)
+                }
+            })
+            .collect::<Result<Vec<Found>, _>>()?;
+        let pairs = |first: &[f64], second: fn(&Found) -> f64, scale: fn(f64) -> f64| -> Vec<f64> {
+            first.iter().zip(&rows).map(|(x, row)| (x - second(row)).abs() / scale(*x)).collect()
+        };
+        let work = rows.iter().map(|row| row.3).sum();
+        let table = Table::builder("conjugate-points-by-integration", "first conjugate points by integration")
+            .column("phi0", "length", "distance of the start from the equator", read("phi0")?)
+            .column("delta", "1", "B p_θ² − 1", read("delta")?)
+            .column("branch", "1", "sign of φ' at the start", starts.iter().map(|s| s.branch).collect::<Vec<_>>())
+            .column("t1", "length", "first conjugate time", rows.iter().map(|r| r.0).collect::<Vec<_>>())
+            .column("theta", "rad", "θ there", rows.iter().map(|r| r.1).collect::<Vec<_>>())
+            .column("phi", "length", "φ there", rows.iter().map(|r| r.2).collect::<Vec<_>>())
+            .column("t1_difference", "1", "relative difference of t1 to the first route", pairs(t1, |r| r.0, f64::abs))
+            .column("theta_difference", "rad", "difference of θ to the first route", pairs(theta, |r| r.1, |_| 1.0))
+            .column("phi_difference", "length", "difference of φ to the first route", pairs(phi, |r| r.2, |_| 1.0))
+            .column("allowed", "1", "largest difference of t1 allowed", vec![self.allowed; rows.len()])
+            .column("double_double", "", "integrated with 106 bits", starts.iter().map(long).collect::<Vec<_>>())
+            .build()
+            .map_err(failed("second route"))?;
+        product(&table, work)
+    }
+}
+
+/// Relative error per step in double-double: errors grow by at most `1/δ < 1e16`, and 1e-12 is wanted.
+const DOUBLE_DOUBLE_TOLERANCE: f64 = 1e-28;

@@ -1,0 +1,86 @@
+//! What many experiments say alike: numbers off a table of quantities, and the agreement of two routes.
+
+use crate::contract::claim::{Claim, Evidence, Test};
+use crate::contract::node::NodeError;
+use crate::contract::value::NamedValue;
+use crate::table::{Table, TableError};
+
+/// A table that can't be read the way an experiment reads it.
+pub fn unread(error: TableError) -> NodeError {
+    NodeError::new(error.to_string())
+}
+
+/// All numbers of a table of quantities, as named values.
+///
+/// # Errors
+/// A table of another form.
+pub fn quantities(table: &Table) -> Result<Vec<NamedValue>, NodeError> {
+    let numbers = |name: &str| table.f64s(name).map_err(unread);
+    let texts = |name: &str| table.texts(name).map_err(unread);
+    let (values, errors) = (numbers("value")?, numbers("error")?);
+    let (names, units, meanings, routes) = (texts("quantity")?, texts("unit")?, texts("meaning")?, texts("route")?);
+    Ok((0..table.rows())
+        .map(|i| NamedValue {
+            name: names[i].clone(),
+            value: values[i],
+            unit: units[i].clone(),
+            meaning: meanings[i].clone(),
+            route: routes[i].clone(),
+            error: errors[i],
+        })
+        .collect())
+}
+
+/// The largest value of a column.
+///
+/// # Errors
+/// No such column, or no row.
+pub fn largest(table: &Table, column: &str) -> Result<f64, NodeError> {
+    let values = table.f64s(column).map_err(unread)?;
+    values.iter().copied().reduce(f64::max).ok_or_else(|| NodeError::new(format!("{}: no rows", table.name())))
+}
+
+/// The largest difference of the two routes over tables of second routes, as a named value.
+///
+/// # Errors
+/// A table of another form.
+pub fn largest_route_difference(second_routes: &[&Table]) -> Result<NamedValue, NodeError> {
+    let mut value: f64 = 0.0;
+    let mut rows = 0;
+    for table in second_routes {
+        value = value.max(largest(table, "t1_difference")?);
+        rows += table.rows();
+    }
+    Ok(NamedValue {
+        name: "largest_route_difference".to_owned(),
+        value,
+        unit: "1".to_owned(),
+        meaning: format!(
+            "largest relative difference of a conjugate time between closed form and integration, {rows} rows"
+        ),
+        route: "closed form against power-series integration (double-double near the separatrix)".to_owned(),
+        // The differences of nearby numbers are exact; their own rounding is that of the two routes.
+        error: 4.0 * f64::EPSILON,
+    })
+}
+
+/// The claim that both routes agree, with the difference that the tables allow.
+///
+/// # Errors
+/// A table of another form.
+pub fn routes_agree(second_routes: &[&Table]) -> Result<Claim, NodeError> {
+    let measured = largest_route_difference(second_routes)?.value;
+    let allowed = second_routes.iter().try_fold(0.0, |all: f64, table| Ok(all.max(largest(table, "allowed")?)))?;
+    Ok(Claim {
+        id: "routes_agree".to_owned(),
+        place: "all conjugate times of this experiment".to_owned(),
+        statement: "Closed form and integration give the same conjugate times.".to_owned(),
+        evidence: Evidence::Direct(Test::AtMost {
+            measured,
+            tolerance: allowed,
+            reason: "what integration gives: f64 where the flow loses little, double-double near the separatrix"
+                .to_owned(),
+        }),
+        note: String::new(),
+    })
+}
