@@ -1,6 +1,8 @@
 //! The arrows between rooms, and no others: every path `crate::ROOM` in every file below `src/`, test code too, by its
 //! tokens. The fingerprints of code stand on these arrows.
 
+#![expect(clippy::expect_used, reason = "helpers of tests")]
+
 #[path = "../src/contract/tokens.rs"]
 #[allow(dead_code, reason = "a part of it is for build.rs")]
 mod tokens;

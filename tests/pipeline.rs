@@ -1,6 +1,8 @@
 //! The runner on a toy experiment: what runs, what is reused, what is repaired. The oracle is the count of runs of each
 //! node, and the bytes of an undisturbed run.
 
+#![expect(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
+
 mod toy;
 
 use polhode::contract::code::{CodeListing, listing};
@@ -9,13 +11,14 @@ use polhode::contract::node::{Address, Node};
 use polhode::contract::plan::{Export, Plan};
 use polhode::pipeline::disk::{Disk, Operation, Probe};
 use polhode::pipeline::events::{Events, Silent};
-use polhode::pipeline::forecast::{NotStored, Prospect, forecast, stored};
+use polhode::pipeline::forecast::{Prospect, forecast};
 use polhode::pipeline::graph::{Graph, GraphError};
 use polhode::pipeline::reason::Reason;
 use polhode::pipeline::render::{Format, render};
 use polhode::pipeline::report::{Damage, ExportStatus, Failure, Outcome, Repair, Report, Status, Subject};
 use polhode::pipeline::run::{Options, run};
 use polhode::pipeline::store::{Fault, Store, StoreError};
+use polhode::pipeline::stored::{NotStored, stored};
 use polhode::pipeline::why::why;
 use std::io;
 use std::path::Path;
@@ -106,7 +109,8 @@ fn all_damage_is_noticed_repaired_and_reported() {
     let bench = Bench::new();
     bench.run(0.8);
     let good = snapshot(&bench);
-    let faults: [(&str, fn(&Path)); 5] = [
+    type Harm = fn(&Path);
+    let faults: [(&str, Harm); 5] = [
         ("deleted", |path| std::fs::remove_file(path).expect("removed")),
         ("truncated", |path| change(path, |bytes| bytes.truncate(bytes.len() / 2))),
         ("emptied", |path| change(path, Vec::clear)),
@@ -622,4 +626,68 @@ fn the_graph_can_be_drawn() {
     let json: serde_json::Value = serde_json::from_str(&render(&graph, &selection, Format::Json)).expect("JSON");
     assert_eq!(json["nodes"].as_array().map(Vec::len), Some(3));
     assert_eq!(json["exports"][0]["path"], "toy.txt");
+}
+
+/// What a killed run left in the store's `tmp` is removed as soon as no other run is alive, and not before.
+#[test]
+fn leftovers_of_killed_runs_go_when_nobody_is_alive() {
+    let bench = Bench::new();
+    bench.run(0.8);
+    let leftover = bench.store().scratch().join(".polhode-tmp-1-1");
+    std::fs::write(&leftover, "half a file").expect("written");
+    let alive = bench.store().begin(&mut || ()).expect("begun");
+    assert!(!leftover.exists(), "nobody was alive");
+    std::fs::write(&leftover, "being written").expect("written");
+    bench.run(1.5);
+    assert!(leftover.exists(), "another run was alive");
+    drop(alive);
+    bench.run(1.5);
+    assert!(!leftover.exists());
+}
+
+/// A store on another file system than the outputs: files are written beside their places, and nothing stays there.
+#[test]
+fn outputs_may_lie_on_another_file_system() {
+    struct Apart;
+    impl Probe for Apart {
+        fn before(&self, operation: Operation, path: &Path) -> io::Result<()> {
+            // The probe sees the target of a rename only: the first for each path comes from the store's folder.
+            static SEEN: std::sync::Mutex<Vec<std::path::PathBuf>> = std::sync::Mutex::new(Vec::new());
+            let mut seen = SEEN.lock().expect("unpoisoned");
+            let is_output = operation == Operation::Rename && path.to_string_lossy().contains("figures");
+            if is_output && !seen.contains(&path.to_owned()) {
+                seen.push(path.to_owned());
+                return Err(io::Error::from(io::ErrorKind::CrossesDevices));
+            }
+            Ok(())
+        }
+    }
+    let bench = Bench::new();
+    let store = Store::with_disk(bench.store().folder(), Disk::probed(Arc::new(Apart)));
+    std::fs::create_dir_all(bench.out()).expect("made");
+    std::fs::write(bench.out().join(".polhode-tmp-1-1"), "left by a killed run").expect("written");
+    let graph = bench.graph(0.8);
+    let options = Options { known_exports: Some(graph.export_paths()), ..bench.options() };
+    let report = run(&graph, &graph.all(), &store, &options, &mut Silent);
+    assert_eq!((report.outcome(), report.unknown_files.len()), (Outcome::Success, 0));
+    assert_eq!(bench.outputs().into_keys().collect::<Vec<_>>(), ["data/toy/aside.txt", "toy.txt"]);
+    assert!(files(&store.scratch()).is_empty());
+}
+
+/// Heads of an experiment whose sweep has changed: the old address is kept, and marked as no longer planned.
+#[test]
+fn heads_remember_addresses_that_are_gone() {
+    use polhode::pipeline::heads::view;
+    let bench = Bench::new();
+    bench.run(0.8);
+    let mut plan = bench.plan("toy", 0.8);
+    plan.nodes.retain(|node| node.address.node != "aside");
+    plan.exports.retain(|export| export.from.node != "aside");
+    bench.run_graph(&Graph::join(vec![plan]).expect("sound"));
+    let (heads, fault) = bench.store().heads(&view(bench.folder.path(), &bench.out()), "toy");
+    assert_eq!(fault, None);
+    let live: Vec<(&str, bool)> = heads.nodes.iter().map(|(address, head)| (address.as_str(), head.live)).collect();
+    assert_eq!(live, [("toy/aside", false), ("toy/middle", true), ("toy/source", true), ("toy/top", true)]);
+    assert_eq!(heads.exports.keys().collect::<Vec<_>>(), ["toy.txt"]);
+    assert_eq!(bench.store().runs(9).len(), 1, "the second run did nothing worth a note");
 }
