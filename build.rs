@@ -3,8 +3,6 @@
 //! from `Cargo.lock`; the compiler. `src/contract/code.rs` includes the table. No path of this machine and no time gets
 //! into it.
 
-#![expect(clippy::print_stdout, reason = "cargo reads build scripts' output")]
-
 #[path = "src/contract/tokens.rs"]
 #[allow(dead_code, reason = "the rest is for tests")]
 mod tokens;

@@ -1,8 +1,8 @@
 //! Code fingerprints: what of this program's source a kind of node depends on.
 //!
-//! `build.rs` digests the token stream of every file below `src/` (see [`tokens`](https://docs.rs/proc-macro2) for the
-//! lexer) and writes the table that is included here: files with their digests, the external crates that each names,
-//! the crates' checksums from `Cargo.lock`, the compiler. A [`Kind`] declares rooms and files; its listing holds
+//! `build.rs` digests the token stream of every file below `src/` (`tokens.rs` says what counts) and writes the table
+//! that is included here: files with their digests, the external crates that each names, the crates' checksums from
+//! `Cargo.lock`, the compiler. A [`Kind`] declares rooms and files; its listing holds
 //! these files, the external crates that they reach, and the compiler. Comments, docs, layout, test code and files that
 //! only list modules are not in it.
 

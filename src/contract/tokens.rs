@@ -365,8 +365,9 @@ fn tree(tokens: &[String], mut at: usize, base: &[String], found: &mut BTreeSet<
         if token == "{" {
             at += 1;
             while tokens.get(at).is_some_and(|token| token != "}") {
-                let next = tree(tokens, at, &path, found);
-                at = if next > at { next } else { at + 1 };
+                let is_comma = tokens.get(at).is_some_and(|token| token == ",");
+                let next = if is_comma { at } else { tree(tokens, at, &path, found) };
+                at = next.max(at + 1);
             }
             return at + 1;
         }
@@ -388,4 +389,129 @@ fn tree(tokens: &[String], mut at: usize, base: &[String], found: &mut BTreeSet<
         found.insert(path);
     }
     if tokens.get(at).is_some_and(|token| token == "as") { at + 2 } else { at }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read_at(text: &str) -> Source {
+        read(text, &["geometry", "spin"]).expect("tokens")
+    }
+
+    const BASE: &str = "
+        use crate::numerics::real::Real;
+        /// A sum.
+        pub fn sum(a: f64, b: f64) -> f64 { a + b }
+        pub const PAIR: (f64,) = (1.0,);
+        #[cfg(test)]
+        mod tests { use super::*; #[test] fn adds() { assert_eq!(sum(1.0, 2.0), 3.0); } }
+    ";
+
+    /// Edits that are not of the code leave the digest; the oracle is what the edit is.
+    #[test]
+    fn comments_docs_layout_and_tests_do_not_count() {
+        let edits = [
+            ("/// A sum.", "/// The sum of two numbers.\n/** and more */ #[doc = \"x\"]"),
+            ("a + b", "// now\n a\n+ /* and here */ b"),
+            ("(a: f64, b: f64)", "(\n a: f64,\n b: f64,\n)"),
+            ("3.0);", "4.0); assert!(true);"),
+            ("mod tests {", "mod more_tests { fn other() {} } #[cfg(all(test, unix))] mod tests {"),
+            ("#[cfg(test)]", "#[cfg(test)] const X: [u8; 2] = [1, 2]; #[cfg(test)] use a::{b, c}; #[cfg(test)]"),
+            ("    use crate", "//! Module docs.\n#![doc = \"more\"]\nuse crate"),
+        ];
+        for (from, to) in edits {
+            assert!(BASE.contains(from), "{from}");
+            assert_eq!(read_at(&BASE.replacen(from, to, 1)).digest, read_at(BASE).digest, "{from} → {to}");
+        }
+    }
+
+    #[test]
+    fn edits_of_the_code_count() {
+        let edits = [
+            ("a + b", "a - b"),
+            ("a + b", "b + a"),
+            ("a + b", "a + b + 0.0"),
+            ("pub fn", "fn"),
+            ("pub fn", "#[inline] pub fn"),
+            ("(1.0,)", "(1.0)"),
+            ("1.0,)", "1.00,)"),
+            ("real::Real", "real::Other as Real"),
+            ("#[cfg(test)]", "#[cfg(not(test))]"),
+            ("#[cfg(test)]", "#[cfg(any(test, unix))]"),
+        ];
+        for (from, to) in edits {
+            assert!(BASE.contains(from), "{from}");
+            assert_ne!(read_at(&BASE.replacen(from, to, 1)).digest, read_at(BASE).digest, "{from} → {to}");
+        }
+    }
+
+    /// Blanks between operators matter only where they part one token into two.
+    #[test]
+    fn operators_are_single_tokens() {
+        let digest = |text: &str| read_at(text).digest;
+        assert_ne!(digest("const X: bool = a && b;"), digest("const X: bool = a & &b;"));
+        assert_eq!(digest("const X: i32 = -1;"), digest("const X: i32 =-1;"));
+        assert_eq!(digest("type X = A<B, C,>;"), digest("type X = A<B, C>;"));
+    }
+
+    /// A trailing comma may choose a macro's arm, so it counts there; rustfmt leaves those alone.
+    #[test]
+    fn trailing_commas_count_in_macros() {
+        let digest = |text: &str| read_at(text).digest;
+        assert_ne!(digest("fn f() { m!(a, b,) }"), digest("fn f() { m!(a, b) }"));
+        assert_ne!(digest("macro_rules! m { (a,) => {} }"), digest("macro_rules! m { (a) => {} }"));
+    }
+
+    /// A field or an arm under `cfg(test)` ends with its comma: its neighbours still count.
+    #[test]
+    fn fields_for_tests_do_not_hide_their_neighbours() {
+        let digest = |text: &str| read_at(text).digest;
+        let field = "struct S { #[cfg(test)] a: u8, b: u16 }";
+        assert_eq!(digest(field), digest("struct S { b: u16 }"));
+        assert_ne!(digest(field), digest("struct S { #[cfg(test)] a: u8, b: u32 }"));
+    }
+
+    #[test]
+    fn lists_of_names_are_told_apart() {
+        assert!(read_at("//! Docs.\npub mod a;\nmod b;\npub(crate) mod c;\n#[cfg(test)]\nmod d;").is_list);
+        assert!(read_at("//! Docs.").is_list);
+        assert!(!read_at("pub mod a; pub use a::A;").is_list);
+        assert!(!read_at("mod a { }").is_list);
+    }
+
+    #[test]
+    fn included_files_and_test_modules_are_named() {
+        let source = read_at(
+            "const A: &str = include_str!(\"a.toml\"); #[cfg(test)] mod oracle; #[cfg(test)] fn f() { include_str!(\"b\"); }",
+        );
+        assert_eq!(source.included, ["a.toml"]);
+        assert_eq!(source.test_modules, BTreeSet::from(["oracle".to_owned()]));
+        assert!(read("const A: &str = include_str!(PATH);", &[]).is_err());
+    }
+
+    #[test]
+    fn paths_are_resolved_from_the_root() {
+        let source = read_at(
+            "use crate::{numerics::{real::{self, Real}, ulp as u}, table::*}; use super::chart::Chart; mod flow; \
+             fn f() { flow::go(); self::g(); libm::sin(serde_json::json!(1)); crate::plot::axes::<u8>() } \
+             mod inner { use super::h; } use rayon::{prelude};",
+        );
+        let paths: Vec<String> = source.inside.iter().map(|path| path.join("/")).collect();
+        let expected = [
+            "geometry/chart/Chart",
+            "geometry/spin/flow/go",
+            "geometry/spin/g",
+            "geometry/spin/h",
+            "numerics/real",
+            "numerics/real/Real",
+            "numerics/ulp",
+            "plot/axes",
+            "table/*",
+        ];
+        assert_eq!(paths, expected);
+        for name in ["libm", "serde_json", "rayon"] {
+            assert!(source.outside.contains(name), "{name}");
+        }
+    }
 }

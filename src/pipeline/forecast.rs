@@ -5,14 +5,15 @@
 //! as it was.
 
 use super::exports::{self, Wanted};
-use super::graph::{Graph, Selection};
+use super::graph::Graph;
 use super::heads::{self, Heads};
 use super::parallel;
 use super::reason::{self, Reason};
 use super::record::Record;
 use super::report::{ExportStatus, as_text};
 use super::run::{Options, read_heads};
-use super::store::{Examined, Fault, Lacking, Store};
+use super::select::Selection;
+use super::store::{Examined, Lacking, Store};
 use crate::contract::digest::Digest;
 use crate::contract::node::Address;
 use serde::Serialize;
@@ -183,9 +184,8 @@ impl Walk<'_> {
                 let prospect = self.lacking(node, lacking, &mut reasons);
                 (prospect, Some(record.clone()))
             }
-            (Some(key), Some(Examined::Broken(why))) => {
-                let (record, why) = (record_path(key), why.clone());
-                reasons.push(Reason::RecordDamaged { record, why });
+            (Some(key), Some(Examined::Broken(fault))) => {
+                reasons.push(Reason::RecordDamaged { record: record_path(key), fault: fault.clone() });
                 (Prospect::WillRun, None)
             }
             (Some(key), Some(Examined::Absent)) => {
@@ -288,66 +288,4 @@ impl Walk<'_> {
         });
         ExportForecast { path, from, object, status }
     }
-}
-
-/// Why a stored artifact can't be had.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NotStored {
-    /// Nothing stands at the address.
-    #[error("no node stands at {0}")]
-    NoSuchNode(Address),
-    /// The node's result is not in the store.
-    #[error("{0} has no stored result for the present configs and code: run it first")]
-    NotRun(Address),
-    /// The node makes no such artifact.
-    #[error("{address} makes no {artifact:?}; it makes {made}")]
-    NoSuchArtifact {
-        /// The node.
-        address: Address,
-        /// What was asked for.
-        artifact: String,
-        /// What there is.
-        made: String,
-    },
-    /// The stored bytes are damaged.
-    #[error("the stored {artifact} of {address} is {fault}: run again to repair it")]
-    Damaged {
-        /// The node.
-        address: Address,
-        /// What was asked for.
-        artifact: String,
-        /// What is wrong with it.
-        fault: Fault,
-    },
-}
-
-/// The verified bytes of a node's artifact, as they are for the present configs and code. Writes nothing, runs nothing.
-///
-/// # Errors
-/// What keeps it from being had.
-pub fn stored(
-    graph: &Graph,
-    store: &Store,
-    options: &Options,
-    address: &Address,
-    artifact: &str,
-) -> Result<Vec<u8>, NotStored> {
-    let none = || NotStored::NoSuchNode(address.clone());
-    graph.find(address).ok_or_else(none)?;
-    let mut selection = graph.select(&[address.to_string()]).map_err(|_| none())?;
-    selection.exports.clear();
-    let options = Options { force: false, ..options.clone() };
-    let forecast = forecast(graph, &selection, store, &options);
-    let node = forecast.nodes.iter().find(|node| node.address == *address).ok_or_else(none)?;
-    let not_run = || NotStored::NotRun(address.clone());
-    let record = store.record(node.key.ok_or_else(not_run)?).map_err(|_| not_run())?;
-    let output = record.output(artifact).ok_or_else(|| {
-        let made: Vec<&str> = record.outputs.iter().map(|output| output.name.as_str()).collect();
-        NotStored::NoSuchArtifact { address: address.clone(), artifact: artifact.to_owned(), made: made.join(", ") }
-    })?;
-    store.object(output.object).map_err(|fault| NotStored::Damaged {
-        address: address.clone(),
-        artifact: artifact.to_owned(),
-        fault,
-    })
 }

@@ -16,14 +16,15 @@
 //!   [`Outcome`](report::Outcome) maps to the exit code.
 //! - [`forecast`](forecast::forecast) says what `run` would do, writing nothing: `--dry-run`.
 //! - [`why`](why::why) is the forecast of what stands behind one target, with the origin of its present bytes.
-//! - [`stored`](forecast::stored) gives a stored artifact by address, for `show` and `check`;
+//! - [`stored`](stored::stored) gives a stored artifact by address, for `show` and `check`;
 //!   [`Store::artifact`](store::Store::artifact) by key, for old values ([`NodeReport::previous`](report::NodeReport)).
 //! - [`Events`](events::Events) hears of everything as it happens, on the caller's thread.
 //!
 //! Nodes run on threads of their own, at most `jobs` at once; what they do in parallel inside goes to rayon's global
 //! pool, which the caller sizes. Panics are caught here; whoever does not want rust's own message about them sets a hook.
 //!
-//! Map: `graph` joins plans; `schedule` decides what runs (its states are listed there), `work` does it; `record`,
+//! Map: `graph` joins plans, `select` finds what targets need; `schedule` decides what runs (its states are listed there;
+//! `examine` and `start` are its two questions), `work` does it; `record`,
 //! `store`, `heads`, `runs` are the files of the store, `disk` all calls to the file system (with a place for fault
 //! injection), `exports` the output folder; `forecast`, `reason`, `locate`, `why` explain; `render` draws the graph.
 //!
@@ -35,6 +36,7 @@
 
 pub mod disk;
 pub mod events;
+mod examine;
 mod exports;
 pub mod forecast;
 pub mod graph;
@@ -48,6 +50,9 @@ pub mod report;
 pub mod run;
 pub mod runs;
 mod schedule;
+pub mod select;
+mod start;
 pub mod store;
+pub mod stored;
 pub mod why;
 mod work;

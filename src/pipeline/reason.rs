@@ -70,7 +70,7 @@ pub enum Reason {
         /// Where it lies.
         record: String,
         /// What is wrong with it.
-        why: String,
+        fault: Fault,
     },
     /// An object is missing or damaged.
     ObjectDamaged {
@@ -113,7 +113,7 @@ impl fmt::Display for Reason {
             Self::Kind { old, new } => write!(f, "kind: {old} → {new}"),
             Self::Upstream { node } => write!(f, "{node} will run or may run"),
             Self::RecordMissing { record } => write!(f, "its record is missing: {record}"),
-            Self::RecordDamaged { record, why } => write!(f, "its record is damaged ({why}): {record}"),
+            Self::RecordDamaged { record, fault } => write!(f, "its record is {fault}: {record}"),
             Self::ObjectDamaged { artifact, object, fault, restored_from } => {
                 write!(f, "stored {artifact} is {fault}: {object}")?;
                 restored_from.as_ref().map_or(Ok(()), |path| write!(f, "; restored from {path}"))

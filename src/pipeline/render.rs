@@ -1,6 +1,7 @@
 //! The graph as text, Graphviz's dot, mermaid, JSON. Draws; decides nothing.
 
-use super::graph::{Graph, Selection};
+use super::graph::Graph;
+use super::select::Selection;
 use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::fmt::Write;

@@ -2,15 +2,16 @@
 
 use super::events::Events;
 use super::exports;
-use super::graph::{Graph, Selection};
+use super::graph::Graph;
 use super::heads::{self, Head, Heads};
 use super::report::{Damage, ExportReport, ExportStatus, NodeReport, Repair, Report, Status, Subject};
 use super::runs::PastRun;
 use super::schedule::Scheduler;
+use super::select::Selection;
 use super::store::{Session, Store, StoreError};
 use crate::contract::digest::Digest;
 use crate::contract::plan::Export;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
@@ -67,19 +68,19 @@ pub fn run(graph: &Graph, selection: &Selection, store: &Store, options: &Option
     }
     let listings = std::mem::take(&mut scheduler.listings);
     let mut report = assemble(graph, selection, &heads, scheduler);
-    if session.is_ok() {
-        sync_folders(&mut report, store, options);
-        keep_listings(graph, selection, store, &listings, &mut report, events);
-        remember_heads(graph, selection, store, &view, &heads, &mut report);
-        find_strays(store, options, &mut report, events);
-    }
     report.elapsed = clock.elapsed();
-    if session.is_ok()
-        && let Some(past) = PastRun::of(&report, &selection.targets, began, report.elapsed)
+    let Ok(session) = session else { return report };
+    sync_folders(&mut report, store, options);
+    keep_listings(graph, selection, store, &listings, &mut report, events);
+    remember_heads(graph, selection, store, &view, &heads, &mut report);
+    report.elapsed = clock.elapsed();
+    if let Some(past) = PastRun::of(&report, &selection.targets, began, report.elapsed)
         && let Err(error) = store.remember(&past)
     {
         report.warnings.push(format!("this run is not in the log: {error}"));
     }
+    find_strays(store, session, options, &mut report, events);
+    report.elapsed = clock.elapsed();
     report
 }
 
@@ -168,7 +169,7 @@ fn keep_listings(
     graph: &Graph,
     selection: &Selection,
     store: &Store,
-    written: &std::collections::HashSet<Digest>,
+    written: &HashSet<Digest>,
     report: &mut Report,
     events: &mut dyn Events,
 ) {
@@ -244,18 +245,15 @@ fn planned(graph: &Graph, plan: usize) -> (BTreeSet<String>, BTreeSet<String>) {
     (nodes.map(|p| p.node.address.to_string()).collect(), paths.map(|p| p.export.path.clone()).collect())
 }
 
-fn find_strays(store: &Store, options: &Options, report: &mut Report, events: &mut dyn Events) {
+fn find_strays(store: &Store, session: Session, options: &Options, report: &mut Report, events: &mut dyn Events) {
     let Some(known) = &options.known_exports else { return };
     match exports::strays(store.disk(), &options.out, known, &options.unscanned) {
         Ok(strays) => {
             strays.unknown.iter().for_each(|path| events.unknown_file(path));
             report.unknown_files = strays.unknown;
-            // Written beside the outputs only where the store is on another file system. Those of a live run of
-            // another process stay: this one's are all renamed by now.
-            let ours = format!("{}{}-", super::disk::TEMPORARY, std::process::id());
-            let is_ours = |file: &Path| file.file_name().is_some_and(|name| name.to_string_lossy().starts_with(&ours));
-            for file in strays.temporary.iter().filter(|file| is_ours(file)) {
-                drop(store.disk().remove(file));
+            // Written beside the outputs only where the store is on another file system, and left there by killed runs.
+            if !strays.temporary.is_empty() && store.end(session) {
+                strays.temporary.iter().for_each(|file| drop(store.disk().remove(file)));
             }
         }
         Err(error) => report.warnings.push(format!("the output folder was not looked through: {error}")),

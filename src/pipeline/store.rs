@@ -92,8 +92,8 @@ pub enum Examined {
     Sound(Record),
     /// A sound record with damaged or missing objects.
     Lacking(Record, Vec<Lacking>),
-    /// A record that can't be believed, and why.
-    Broken(String),
+    /// A record that can't be believed.
+    Broken(Fault),
     /// No record.
     Absent,
 }
@@ -108,7 +108,7 @@ pub struct Store {
 /// Held while a run uses the store, so that `gc` keeps away.
 #[derive(Debug)]
 pub struct Session {
-    _lock: File,
+    lock: File,
 }
 
 /// What became of an object that was put into the store.
@@ -247,11 +247,11 @@ impl Store {
         let text = match self.disk.read(&self.record_path(key)) {
             Ok(text) => text,
             Err(error) if error.is_missing() => return Examined::Absent,
-            Err(error) => return Examined::Broken(error.message),
+            Err(error) => return Examined::Broken(error.into()),
         };
         let record = match Record::from_text(&text, key) {
             Ok(record) => record,
-            Err(malformed) => return Examined::Broken(malformed.to_string()),
+            Err(_) => return Examined::Broken(Fault::Altered),
         };
         let lacking: Vec<Lacking> = record
             .outputs
@@ -309,7 +309,12 @@ impl Store {
         while !self.disk.try_lock_shared(&lock, &path)? {
             wait();
         }
-        Ok(Session { _lock: lock })
+        Ok(Session { lock })
+    }
+
+    /// Ends a run's use of the store; true when no other run is alive, in which case none is writing anything.
+    pub(super) fn end(&self, session: Session) -> bool {
+        self.disk.try_lock(&session.lock, &self.lock_path("store")).unwrap_or(false)
     }
 
     /// Temporary files in a folder.

@@ -2,9 +2,10 @@
 
 use super::exports;
 use super::forecast::{ExportForecast, Forecast, NodeForecast, Prospect, forecast};
-use super::graph::{Graph, UnknownTarget};
+use super::graph::Graph;
 use super::report::ExportStatus;
 use super::run::Options;
+use super::select::UnknownTarget;
 use super::store::Store;
 use crate::contract::digest::Digest;
 use serde::Serialize;
