@@ -10,9 +10,10 @@ use crate::contract::accuracy::Accuracy;
 use crate::contract::node::Address;
 use crate::contract::value::Findings;
 use crate::experiments::definition::{FINDINGS_FILE, FINDINGS_NODE};
-use crate::pipeline::graph::{Graph, Selection};
+use crate::pipeline::graph::Graph;
 use crate::pipeline::report::Report;
 use crate::pipeline::run::Options;
+use crate::pipeline::select::Selection;
 use crate::pipeline::store::Store;
 use std::path::PathBuf;
 
@@ -107,7 +108,7 @@ impl Session {
     /// What keeps them from being had.
     pub fn findings(&self, id: &str) -> Result<Findings, String> {
         let address = Address::new(id, FINDINGS_NODE);
-        let bytes = crate::pipeline::forecast::stored(&self.graph, &self.store, &self.options, &address, FINDINGS_FILE)
+        let bytes = crate::pipeline::stored::stored(&self.graph, &self.store, &self.options, &address, FINDINGS_FILE)
             .map_err(|error| error.to_string())?;
         collected::findings(&bytes).map_err(|error| error.to_string())
     }

@@ -5,7 +5,7 @@ use crate::cli::console::{self, ConsoleError};
 use crate::cli::exit::Exit;
 use crate::cli::session::Session;
 use crate::effects::product::TABLE;
-use crate::pipeline::forecast::stored;
+use crate::pipeline::stored::stored;
 use crate::table::{Table, render_text};
 
 /// Runs the verb.

@@ -1,7 +1,7 @@
 //! Node kinds: what a scene can call for. A kind belongs to its effect, never to a figure.
 
-pub mod point;
 pub mod counted;
+pub mod point;
 pub mod product;
 pub mod quantities;
 pub mod scene;
