@@ -5,6 +5,8 @@ pub mod findings;
 pub mod nodes;
 #[cfg(test)]
 pub mod preview;
+#[cfg(test)]
+pub mod template;
 
 macro_rules! experiments {
     ($($name:ident)*) => {
