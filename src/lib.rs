@@ -1,3 +1,4 @@
 //! polhode
 
+pub mod geometry;
 pub mod numerics;
