@@ -96,7 +96,8 @@ impl<S: Real, F: Flow<S>> Jet<S, F> {
             return f64::NAN;
         }
         // ρ = min(‖x_p‖^(−1/p), ‖x_{p−1}‖^(−1/(p−1))); a vanishing norm says nothing.
-        let inverse_radius = |norm: f64, n: usize| if norm > 0.0 { libm::log(norm) / n as f64 } else { f64::NEG_INFINITY };
+        let inverse_radius =
+            |norm: f64, n: usize| if norm > 0.0 { libm::log(norm) / n as f64 } else { f64::NEG_INFINITY };
         let exponent = inverse_radius(last, p).max(inverse_radius(before, p - 1));
         libm::exp(-exponent - 2.0 - 0.7 / (p - 1) as f64)
     }
