@@ -1,4 +1,9 @@
 //! Node kinds: what a scene can call for. A kind belongs to its effect, never to a figure.
 
+pub mod conjugate_point_versus_k;
+pub mod conjugate_point_versus_k_by_integration;
+pub mod counted;
 pub mod product;
 pub mod scene;
+pub mod switch_points;
+pub mod switch_points_by_integration;

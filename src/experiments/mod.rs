@@ -13,4 +13,4 @@ macro_rules! experiments {
     };
 }
 
-experiments! {}
+experiments! { fig4 }
