@@ -16,4 +16,4 @@ macro_rules! experiments {
     };
 }
 
-experiments! { remark_3_25 }
+experiments! { remark_3_25 fig4 }

@@ -170,8 +170,8 @@ pub enum LiftError {
         /// What is accepted.
         accepted: &'static str,
     },
-    /// No conjugate time up to the time asked for.
-    #[error("no conjugate time up to t = {t_max}")]
+    /// No conjugate time, or no such return to the equator, up to the time asked for.
+    #[error("no such conjugate time or return up to t = {t_max}")]
     NoneBefore {
         /// The time asked for.
         t_max: f64,
@@ -266,6 +266,45 @@ pub fn equator_crossings<S: Real>(
         EquatorCrossing { time: root.time, r: [r1, r2, r3] }
     };
     Ok((events.found.iter().map(crossing).collect(), arrival.work))
+}
+
+/// A return to the equator, with the Jacobi scalar there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CrossingWithJacobi<S> {
+    /// The time of the return.
+    pub t: S,
+    /// The point, in R³.
+    pub r: [S; 3],
+    /// `J = −r·δh` there: zero when the return is a conjugate point.
+    pub jacobi: S,
+}
+
+/// The `crossing`-th return to the equator `r2 = 0` (from 1), with `J` there.
+///
+/// As a function of `k` or `p_θ` this `J` has a simple root where a conjugate point crosses the equator, although the
+/// conjugate time has a vertical tangent there. Domain, guarantee and errors as for [`conjugate_times_by_integration`].
+///
+/// # Errors
+/// [`LiftError`]; [`LiftError::NoneBefore`] when there is no such return up to `t_max`.
+pub fn jacobi_scalar_at_crossing<S: Real>(
+    k: S,
+    p_theta: S,
+    tolerance: f64,
+    t_max: S,
+    crossing: usize,
+) -> Result<(CrossingWithJacobi<S>, Work), LiftError> {
+    let (flow, base) = posed(k, p_theta)?;
+    let system = WithColumns { flow, parameters: [()] };
+    let start: LiftedState<S> = Joined { base, columns: Columns([[S::ZERO, -S::ONE, S::ZERO]]) };
+    let mut events = Events::first(crossing, Component(1)).vanishing_at_start(1);
+    let arrival = integrate(&system, &start, (S::ZERO, t_max), &Settings::new(tolerance), &mut events)?;
+    let root: &EventRoot<S, LiftedState<S>> = crossing
+        .checked_sub(1)
+        .and_then(|last| events.found.get(last))
+        .ok_or(LiftError::NoneBefore { t_max: t_max.to_f64() })?;
+    let [r1, r2, r3, ..] = root.state.base;
+    let [d1, d2, d3] = root.state.columns.0[0];
+    Ok((CrossingWithJacobi { t: root.time, r: [r1, r2, r3], jacobi: -(r1 * d1 + r2 * d2 + r3 * d3) }, arrival.work))
 }
 
 /// `r(t)` at the given times (any order, negative too). Base flow alone; domain as above.
