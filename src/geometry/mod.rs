@@ -1,4 +1,5 @@
 //! The article's mathematics: flows, tangents, closed forms. Built on numerics alone.
 
+pub mod rotation_group;
 pub mod serret_andoyer;
 pub mod spin;
