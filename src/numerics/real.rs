@@ -38,19 +38,14 @@ pub trait Real:
     const EPSILON_ROOT_8: Self;
 
     /// The nearest scalar to a literal (exact for scalars at least as long as `f64`).
-    #[inline]
     fn from_f64(x: f64) -> Self;
     /// Rounds to the nearest `f64`.
-    #[inline]
     fn to_f64(self) -> f64;
     /// Square root, correctly rounded in `f64`.
-    #[inline]
     fn sqrt(self) -> Self;
     /// Absolute value.
-    #[inline]
     fn abs(self) -> Self;
     /// The largest integer that is not larger.
-    #[inline]
     fn floor(self) -> Self;
     /// Exponential.
     fn exp(self) -> Self;

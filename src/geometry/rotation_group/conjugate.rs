@@ -6,7 +6,7 @@
 //! `Ω·δM = 0` has ξ = 0, and both ξ lie in the plane across M.
 //!
 //! **Phases.** With `Q = δM − ½ M × ξ` the form `ξᵢ·Qⱼ − ξⱼ·Qᵢ` is conserved (zero here), so in an orthonormal frame across
-//! M the 2 × 2 matrices X = [ξ] and Q span a Lagrangian plane. Orthonormalised (XᵀX + QᵀQ = 1, lengths in units that make
+//! M the 2 × 2 matrices X (of ξ) and Q span a Lagrangian plane. Orthonormalised (XᵀX + QᵀQ = 1, lengths in units that make
 //! ξ and Q comparable) Q + iX is unitary and `(Q+iX)(Q−iX)⁻¹` is a symmetric unitary matrix, whose eigenvalues
 //! `e^{2iθ}` depend on the plane alone. θ = 0 (mod π) means a conjugate time, with multiplicity the number of such θ; and
 //! there θ' > 0, as `ξ'·Q = δM·I⁻¹δM > 0` on the kernel. Phases cross zero upward only: none can turn back, and a
@@ -20,13 +20,15 @@
 //! time as in (2). Not known here: Euler angles, attitude.
 
 use crate::geometry::rotation_group::body_flow::BodyFlow;
+use crate::geometry::rotation_group::lagrangian_plane::{
+    JacobiPair, LagrangianPlane, determinant_magnitude, determinant_series,
+};
 use crate::geometry::rotation_group::metric::{DomainError, Metric, check_momentum};
 use crate::geometry::rotation_group::vectors::{add_scaled, cross, dot, frame_across, norm, scaled};
 use crate::numerics::counts::Work;
-use crate::numerics::polynomial_roots::MAX_COEFFICIENTS;
 use crate::numerics::real::Real;
 use crate::numerics::taylor::events::{EventFunction, EventSeries, Zeros};
-use crate::numerics::taylor::flow::{Columns, Flow, Joined, Series, WithColumns, product};
+use crate::numerics::taylor::flow::{Columns, Flow, Joined, Series, WithColumns};
 use crate::numerics::taylor::integrator::{IntegrationError, Observer, Settings, Step, integrate};
 use crate::numerics::taylor::step::{Jet, absolute_sum};
 use std::ops::ControlFlow;
@@ -67,84 +69,6 @@ pub enum ConjugateError {
     /// The integration failed.
     #[error(transparent)]
     Integration(#[from] IntegrationError),
-}
-
-/// Two Jacobi fields at one time: momentum, attitude variations ξ and momenta Q = δM − ½ M × ξ in the body frame.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LagrangianPlane<S> {
-    pub(super) momentum: [S; 3],
-    pub(super) xi: [[S; 3]; 2],
-    pub(super) q: [[S; 3]; 2],
-}
-
-/// The two phases of a plane, and how much rounding in its columns is magnified by their near dependence.
-#[derive(Clone, Copy, Debug)]
-struct Phases<S> {
-    /// In (−π/2, π/2], the smaller first.
-    angles: [S; 2],
-    magnification: S,
-}
-
-impl<S: Real> LagrangianPlane<S> {
-    fn phases(&self) -> Phases<S> {
-        let size = norm(&self.momentum);
-        let frame = frame_across(&self.momentum);
-        let half = S::from_f64(0.5);
-        // Rows: frame directions; columns: the two fields. Q in units of |M|.
-        let mut x = [[S::ZERO; 2]; 2];
-        let mut q = [[S::ZERO; 2]; 2];
-        for (row, direction) in frame.iter().enumerate() {
-            for column in 0..2 {
-                x[row][column] = dot(direction, &self.xi[column]);
-                q[row][column] = dot(direction, &self.q[column]) / size;
-            }
-        }
-        // Gram-Schmidt on the columns (x, q) ∈ R⁴ of unit length; the projection twice, so that it is exact.
-        let inner = |x: &[[S; 2]; 2], q: &[[S; 2]; 2], i: usize, j: usize| {
-            x[0][i] * x[0][j] + x[1][i] * x[1][j] + q[0][i] * q[0][j] + q[1][i] * q[1][j]
-        };
-        let normalise = |x: &mut [[S; 2]; 2], q: &mut [[S; 2]; 2], i: usize| {
-            let inverse = S::ONE / inner(x, q, i, i).sqrt();
-            for row in 0..2 {
-                x[row][i] *= inverse;
-                q[row][i] *= inverse;
-            }
-            inverse
-        };
-        normalise(&mut x, &mut q, 0);
-        normalise(&mut x, &mut q, 1);
-        let mut magnification = S::ONE;
-        for _ in 0..2 {
-            let overlap = inner(&x, &q, 0, 1);
-            for row in 0..2 {
-                let (x0, q0) = (x[row][0], q[row][0]);
-                x[row][1] -= overlap * x0;
-                q[row][1] -= overlap * q0;
-            }
-            magnification *= normalise(&mut x, &mut q, 1);
-        }
-        // Q Qᵀ − X Xᵀ = cos 2θ and Q Xᵀ + X Qᵀ = sin 2θ in a common eigenbasis: both symmetric, and they commute.
-        let gram = |a: &[[S; 2]; 2], b: &[[S; 2]; 2], i: usize, j: usize| a[i][0] * b[j][0] + a[i][1] * b[j][1];
-        let symmetric = |f: &dyn Fn(usize, usize) -> S| [f(0, 0), (f(0, 1) + f(1, 0)) * half, f(1, 1)];
-        let cosine = symmetric(&|i, j| gram(&q, &q, i, j) - gram(&x, &x, i, j));
-        let sine = symmetric(&|i, j| gram(&q, &x, i, j) + gram(&x, &q, i, j));
-        // The eigenbasis from the one whose eigenvalues are farther apart.
-        let spread = |m: &[S; 3]| (m[0] - m[2]).abs().max(m[1].abs());
-        let chosen = if spread(&cosine) > spread(&sine) { &cosine } else { &sine };
-        let turn = (chosen[1] + chosen[1]).atan2(chosen[0] - chosen[2]) * half;
-        let (s, c) = turn.sin_cos();
-        let along = |m: &[S; 3], u: S, v: S| m[0] * u * u + (m[1] + m[1]) * u * v + m[2] * v * v;
-        let angle = |u: S, v: S| along(&sine, u, v).atan2(along(&cosine, u, v)) * half;
-        let (first, second) = (angle(c, s), angle(-s, c));
-        let angles = if first <= second { [first, second] } else { [second, first] };
-        Phases { angles, magnification }
-    }
-}
-
-/// A system of two Jacobi fields in whatever variables.
-pub(super) trait JacobiPair<S: Real>: Flow<S> {
-    /// The fields at a state.
-    fn plane(&self, state: &Self::State<S>) -> LagrangianPlane<S>;
 }
 
 /// Finds conjugate times along a [`JacobiPair`], given the determinant `D = M·(ξ₁ × ξ₂)` as an event function.
@@ -346,35 +270,6 @@ impl<S: Real> EventFunction<S, BodySystem<S>> for BodyDeterminant {
             [0, 1, 2].map(|i| bound(&second[3 + i])),
         )
     }
-}
-
-/// Coefficients `0..=last` of `a·(b × c)` for vectors of polynomials of degree `order`.
-pub(super) fn determinant_series<S: Real>(
-    vectors: [&[Series<S>; 3]; 3],
-    order: usize,
-    last: usize,
-    out: &mut EventSeries<S>,
-) {
-    let [a, b, c] = vectors;
-    let mut across = [[S::ZERO; MAX_COEFFICIENTS]; 3];
-    for (i, series) in across.iter_mut().enumerate() {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        for (n, value) in series.iter_mut().enumerate().take(last + 1) {
-            *value = product(&b[j][..=order], &c[k][..=order], n) - product(&b[k][..=order], &c[j][..=order], n);
-        }
-    }
-    for (n, value) in out.iter_mut().enumerate().take(last + 1) {
-        let term = |i: usize| product(&a[i][..=order], &across[i][..=last], n);
-        *value = term(0) + term(1) + term(2);
-    }
-}
-
-/// What the terms of `a·(b × c)` add up to at most, given bounds of the components.
-pub(super) fn determinant_magnitude<S: Real>(a: [S; 3], b: [S; 3], c: [S; 3]) -> S {
-    (0..3).fold(S::ZERO, |sum, i| {
-        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        sum + a[i] * (b[j] * c[k] + b[k] * c[j])
-    })
 }
 
 /// Where the search ends by default: [`SEARCHED_TURNS`] of the slowest axis.

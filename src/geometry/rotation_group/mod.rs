@@ -4,9 +4,11 @@
 //! posing problems and reading results.
 
 pub mod attitude_route;
+pub mod attitude_trajectory;
 pub mod body_flow;
 pub mod conjugate;
 pub mod euler_angles;
+mod lagrangian_plane;
 pub mod metric;
 pub mod serret_andoyer_transformation;
 mod vectors;

@@ -107,7 +107,7 @@ impl<S: Real> SerretAndoyerVariables<S> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::rotation_group::attitude_route::attitude_at;
+    use crate::geometry::rotation_group::attitude_trajectory::attitude_at;
     use crate::geometry::rotation_group::euler_angles::angles_near;
     use crate::geometry::rotation_group::metric::Metric;
 
