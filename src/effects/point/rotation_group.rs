@@ -22,7 +22,7 @@ pub(super) fn answer(reader: &Reader<'_>, relative_error: f64) -> Result<Answer,
     let tolerance = relative_error.max(f64::EPSILON);
     let tolerance = if tolerance <= crate::contract::accuracy::ARTICLE { f64::EPSILON } else { tolerance };
     let route = "integration of momentum and Jacobi fields in the body frame; eigenphases";
-    match first_conjugate_times(&metric, &momentum, WANTED, tolerance) {
+    match first_conjugate_times(&metric, momentum, WANTED, tolerance) {
         Ok(found) => Ok(Answer {
             numbers: (0..WANTED).map(|index| found.times.get(index).copied()).collect(),
             reason: None,
