@@ -442,7 +442,7 @@ fn serret_andoyer_nearly_equal_inertia() {
 /// in the Darboux chart with δ from 1e-13 to 0.5.
 #[test]
 fn serret_andoyer_further_values() {
-    let file = oracle("serret_andoyer_extra.json");
+    let file = oracle("serret_andoyer_random.json");
     let keys = ["A", "B", "C", "y0", "p_x", "p_y", "phi0", "delta"];
     for (list_name, columns) in [("momenta", ["x", "y"]), ("darboux", ["theta", "phi"])] {
         let mut given = Vec::new();
@@ -461,7 +461,7 @@ fn serret_andoyer_further_values() {
 
 #[test]
 fn serret_andoyer_estimates_bound_the_errors() {
-    let file = oracle("serret_andoyer_extra.json");
+    let file = oracle("serret_andoyer_random.json");
     let keys = ["A", "B", "C", "y0", "p_x", "p_y"];
     let points = list(&file["momenta"]);
     let rows: Vec<Row> = points.iter().map(|p| keys.map(|key| (key, number(&p[key]).into())).to_vec()).collect();
@@ -560,7 +560,7 @@ fn rotation_group() {
         // Φ1 is cyclic: it need not be given.
         given.push((with(with(body(), angles.into_iter().skip(1)), momenta), times.0, times.1));
     }
-    for point in list(&oracle("rotation_group_extra.json")) {
+    for point in list(&oracle("rotation_group_random.json")) {
         let row = ["A", "B", "C", "H1", "H2", "H3"].map(|key| (key, number(&point[key]).into())).to_vec();
         given.push((row, number(&point["t1"]), number(&point["t2"])));
     }
