@@ -107,6 +107,16 @@ fn with_name(text: &str, id: &str) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::check::verdict::{Verdict, judge};
+    use crate::experiments::{preview, template};
+
+    /// The template plans, computes and draws as it stands.
+    #[test]
+    fn the_template_runs() {
+        let preview = preview::run_text(&template::EXPERIMENT, CONFIG.to_owned());
+        assert!(preview.value("least_time") > 4.772);
+        assert!(preview.findings.claims.iter().all(|claim| judge(&claim.evidence).verdict == Verdict::Holds));
+    }
 
     #[test]
     fn a_name_joins_the_list_and_the_template_takes_it() {

@@ -28,6 +28,10 @@ pub enum Effect {
     Period,
     /// Attitude of the body: Euler angles along a trajectory.
     Attitude,
+    /// Parameters at which the first conjugate point passes a pole or the equator.
+    SwitchPoints,
+    /// Trajectories sorted into types by what they do up to a first exit.
+    TrajectoryTypes,
 }
 
 impl Effect {
@@ -42,6 +46,8 @@ impl Effect {
             Self::Potential => "potential",
             Self::Period => "period",
             Self::Attitude => "attitude",
+            Self::SwitchPoints => "switch-points",
+            Self::TrajectoryTypes => "trajectory-types",
         }
     }
 }
@@ -224,6 +230,14 @@ pub struct SpinMetric {
 pub struct SpinParameters {
     /// `k = J23/J12 > 0`: a number, a list or a range; one node a value.
     pub k: Sweep,
+}
+
+/// `start = { p_theta = 1e-4 }`: one start on the equator of the spin problem, φ(0) = π/2, θ(0) = 0, p_φ(0) = −2.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EquatorStart {
+    /// `p_θ(0)`, any finite number.
+    pub p_theta: f64,
 }
 
 impl Validate for SpinMetric {

@@ -5,6 +5,8 @@ pub mod findings;
 pub mod nodes;
 #[cfg(test)]
 pub mod preview;
+#[cfg(test)]
+pub mod template;
 
 macro_rules! experiments {
     ($($name:ident)*) => {
@@ -14,4 +16,4 @@ macro_rules! experiments {
     };
 }
 
-experiments! { remark_3_25 }
+experiments! { remark_3_25 fig4 }

@@ -36,7 +36,13 @@ impl Preview {
 pub fn run(experiment: &Experiment, edit: impl Fn(String) -> String) -> Preview {
     let id = experiment.kind;
     let file = format!("{}/experiments/{id}.toml", env!("CARGO_MANIFEST_DIR"));
-    let text = edit(std::fs::read_to_string(&file).expect("the config"));
+    run_text(experiment, edit(std::fs::read_to_string(&file).expect("the config")))
+}
+
+/// Runs an experiment from the text of a config.
+pub fn run_text(experiment: &Experiment, text: String) -> Preview {
+    let id = experiment.kind;
+    let file = format!("experiments/{id}.toml");
     let planned = experiment.plan(id, &ConfigSource { file, text }, None).unwrap_or_else(|error| panic!("{error}"));
     let folder = format!("{}/target/preview/{id}", env!("CARGO_MANIFEST_DIR"));
     std::fs::create_dir_all(&folder).expect("a folder");

@@ -5,8 +5,8 @@
 //! Casteljau's algorithm. Coefficients known only up to `noise` are counted with either sign, so an interval is left
 //! only when no polynomial within the noise has a root there; where all coefficients drown in the noise the piece is part
 //! of a *cluster*: a multiple root, or several roots that the data can't tell apart. A root of multiplicity m blurs into
-//! a cluster of width `(noise/|p⁽ᵐ⁾|)^(1/m)`; its multiplicity is the number of sign changes on a slightly wider interval
-//! (Obreshkoff: at least the number of roots in a disc about it, complex neighbours included).
+//! a cluster of width `(noise/|p⁽ᵐ⁾|)^(1/m)`; its multiplicity is the degree of the term that dominates on a circle
+//! slightly wider than it (Pellet: the number of roots inside, complex neighbours included).
 //!
 //! Sources: G. E. Collins and A. G. Akritas (1976); A. Eigenwillig, *Real root isolation for exact and approximate
 //! polynomials using Descartes' rule of signs* (2008). Not known here: where the polynomial comes from.
@@ -14,11 +14,8 @@
 use crate::numerics::real::Real;
 use std::ops::ControlFlow;
 
-/// Largest number of coefficients: the order of the longest series and one.
-pub const MAX_COEFFICIENTS: usize = 40;
-
-/// Halvings after which a piece counts as a point: the unit interval has no finer `f64` structure beside 1.
-const MAX_DEPTH: usize = 60;
+/// Largest number of coefficients: a product of two of the longest series.
+pub const MAX_COEFFICIENTS: usize = 80;
 
 /// Newton or bisection steps of a refinement: bisection alone needs one a bit.
 const MAX_REFINEMENTS: usize = 200;
@@ -55,11 +52,11 @@ pub fn visit_unit_interval_roots<S: Real>(
     }
     let power = &coefficients[..count];
     let bernstein = to_bernstein(power);
-    // De Casteljau averages: each level adds half an ε of the largest coefficient at most.
-    let largest = bernstein[..count].iter().fold(S::ZERO, |m, b| m.max(b.abs()));
-    let noise = noise + S::from_f64(4.0) * S::EPSILON * largest;
-    let mut search = Search { power, bernstein, count, noise, cluster: None, visit: &mut visit };
-    search.descend(&bernstein, S::ZERO, S::ONE, 0)?;
+    // Every value met here is a sum of terms whose absolute values add up to at most this size.
+    let size = power.iter().fold(S::ZERO, |sum, c| sum + c.abs());
+    let noise = noise + S::from_f64(4.0) * S::EPSILON * size;
+    let mut search = Search { power, count, noise, cluster: None, visit: &mut visit };
+    search.descend(&bernstein, S::ZERO, S::ONE)?;
     search.close_cluster()
 }
 
@@ -68,12 +65,7 @@ pub fn real_roots<S: Real>(coefficients: &[S], lower: S, upper: S, noise: S) -> 
     let count = coefficients.len().min(MAX_COEFFICIENTS);
     let mut shifted = [S::ZERO; MAX_COEFFICIENTS];
     shifted[..count].copy_from_slice(&coefficients[..count]);
-    // Taylor shift to `lower` (Horner's scheme repeated), then t = lower + u·width.
-    for start in 0..count {
-        for k in (start..count.saturating_sub(1)).rev() {
-            shifted[k] = shifted[k] + shifted[k + 1] * lower;
-        }
-    }
+    taylor_shift(&mut shifted[..count], lower);
     let width = upper - lower;
     let mut scale = S::ONE;
     for c in shifted[..count].iter_mut() {
@@ -94,6 +86,17 @@ pub fn real_roots<S: Real>(coefficients: &[S], lower: S, upper: S, noise: S) -> 
     roots
 }
 
+/// Coefficients about another point: `p(t + by)`, by Horner's scheme repeated.
+fn taylor_shift<S: Real>(coefficients: &mut [S], by: S) {
+    let count = coefficients.len();
+    for start in 0..count {
+        for k in (start..count - 1).rev() {
+            let above = coefficients[k + 1];
+            coefficients[k] += above * by;
+        }
+    }
+}
+
 /// `b_j = Σ_{k ≤ j} C(j,k)/C(n,k) a_k`.
 fn to_bernstein<S: Real>(power: &[S]) -> Coefficients<S> {
     let n = power.len() - 1;
@@ -106,7 +109,7 @@ fn to_bernstein<S: Real>(power: &[S]) -> Coefficients<S> {
     }
     for level in 1..=n {
         for j in (level..=n).rev() {
-            b[j] = b[j] + b[j - 1];
+            b[j] += b[j - 1];
         }
     }
     b
@@ -132,10 +135,10 @@ fn sign<S: Real>(b: S, noise: S) -> i32 {
     }
 }
 
-/// The largest number of sign changes that coefficients with unknown signs allow, and the number without them.
-fn sign_changes<S: Real>(b: &[S], noise: S) -> (usize, usize) {
-    let (mut largest, mut smallest) = (0, 0);
-    let (mut previous, mut unknown) = (0, 0);
+/// The largest number of sign changes that coefficients with unknown signs allow.
+fn sign_changes<S: Real>(b: &[S], noise: S) -> usize {
+    let mut largest = 0;
+    let (mut previous, mut unknown) = (0, 0_usize);
     for &c in b {
         let s = sign(c, noise);
         if s == 0 {
@@ -145,28 +148,23 @@ fn sign_changes<S: Real>(b: &[S], noise: S) -> (usize, usize) {
         if previous == 0 {
             largest += unknown;
         } else if s == previous {
-            largest += (unknown + 1) / 2 * 2;
+            largest += unknown.div_ceil(2) * 2;
         } else {
             largest += unknown / 2 * 2 + 1;
-            smallest += 1;
         }
         (previous, unknown) = (s, 0);
     }
-    (largest + unknown, smallest)
+    largest + unknown
 }
 
-/// Both halves of a Bernstein form.
+/// Both halves of a Bernstein form, by de Casteljau's algorithm.
 fn halve<S: Real>(b: &Coefficients<S>, count: usize) -> (Coefficients<S>, Coefficients<S>) {
-    split(b, count, S::from_f64(0.5))
-}
-
-/// De Casteljau's split at a fraction of the interval (outside of 0..1 it extrapolates).
-fn split<S: Real>(b: &Coefficients<S>, count: usize, at: S) -> (Coefficients<S>, Coefficients<S>) {
+    let half = S::from_f64(0.5);
     let (mut left, mut right) = ([S::ZERO; MAX_COEFFICIENTS], *b);
-    for level in 0..count {
-        left[level] = right[0];
+    for (level, b) in left.iter_mut().enumerate().take(count) {
+        *b = right[0];
         for j in 0..count - 1 - level {
-            right[j] = right[j] + (right[j + 1] - right[j]) * at;
+            right[j] = (right[j] + right[j + 1]) * half;
         }
     }
     (left, right)
@@ -174,7 +172,6 @@ fn split<S: Real>(b: &Coefficients<S>, count: usize, at: S) -> (Coefficients<S>,
 
 struct Search<'a, S: Real, V> {
     power: &'a [S],
-    bernstein: Coefficients<S>,
     count: usize,
     noise: S,
     /// The piece being collected: lower and upper end.
@@ -183,15 +180,16 @@ struct Search<'a, S: Real, V> {
 }
 
 impl<S: Real, V: FnMut(RootCluster<S>) -> ControlFlow<()>> Search<'_, S, V> {
-    fn descend(&mut self, b: &Coefficients<S>, lower: S, width: S, depth: usize) -> ControlFlow<()> {
+    fn descend(&mut self, b: &Coefficients<S>, lower: S, width: S) -> ControlFlow<()> {
         let b_used = &b[..self.count];
-        let (largest, _) = sign_changes(b_used, self.noise);
+        let largest = sign_changes(b_used, self.noise);
         let (first, last) = (sign(b_used[0], self.noise), sign(b_used[self.count - 1], self.noise));
         let all_unknown = b_used.iter().all(|&c| sign(c, self.noise) == 0);
         if !all_unknown && largest == 0 {
             return ControlFlow::Continue(());
         }
-        if all_unknown || depth >= MAX_DEPTH {
+        // The interval has no structure finer than the scalar's own beside 1.
+        if all_unknown || width <= S::from_f64(2.0) * S::EPSILON {
             let upper = lower + width;
             match &mut self.cluster {
                 Some((_, end)) if *end == lower => *end = upper,
@@ -210,8 +208,8 @@ impl<S: Real, V: FnMut(RootCluster<S>) -> ControlFlow<()>> Search<'_, S, V> {
         }
         let (left, right) = halve(b, self.count);
         let half = width * S::from_f64(0.5);
-        self.descend(&left, lower, half, depth + 1)?;
-        self.descend(&right, lower + half, half, depth + 1)
+        self.descend(&left, lower, half)?;
+        self.descend(&right, lower + half, half)
     }
 
     /// The sign change between the ends of a bracket by Newton's method kept inside by bisection, and the distance over
@@ -247,32 +245,46 @@ impl<S: Real, V: FnMut(RootCluster<S>) -> ControlFlow<()>> Search<'_, S, V> {
         let Some((lower, upper)) = self.cluster.take() else { return ControlFlow::Continue(()) };
         let half = S::from_f64(0.5);
         let width = upper - lower;
+        let middle = (lower + upper) * half;
         // Widen until both ends stand out of the noise; a cluster that fills the interval stays as it is.
-        let mut margin = width;
+        let level = self.noise * S::from_f64(8.0);
+        let mut radius = width.max(S::from_f64(4.0) * S::EPSILON);
         let mut judged = None;
-        while margin <= S::ONE {
-            let (a, b) = (lower - margin, upper + margin);
-            let (_, from_a) = split(&self.bernstein, self.count, a);
-            let (piece, _) = split(&from_a, self.count, (b - a) / (S::ONE - a));
-            let used = &piece[..self.count];
-            let level = self.noise * S::from_f64(2.0);
-            let (first, last) = (sign(used[0], level), sign(used[self.count - 1], level));
+        while radius <= S::ONE {
+            let (a, b) = (middle - radius, middle + radius);
+            let (first, last) = (sign(horner(self.power, a).0, level), sign(horner(self.power, b).0, level));
             if first != 0 && last != 0 {
-                judged = Some((a, b, first, last, sign_changes(used, self.noise).1));
+                judged = Some((a, b, first, last));
                 break;
             }
-            margin = margin * S::from_f64(2.0);
+            radius *= S::from_f64(1.5);
         }
-        let Some((a, b, first, last, changes)) = judged else {
-            let root = (lower + upper) * half;
-            return (self.visit)(RootCluster { lower, upper, root, multiplicity: self.count - 1 });
+        let Some((a, b, first, last)) = judged else {
+            return (self.visit)(RootCluster { lower, upper, root: middle, multiplicity: self.count - 1 });
         };
+        let dominant = self.dominant_degree(middle, radius);
+        // Equal signs at the ends: an even number of roots; opposite signs: an odd one.
         let (root, multiplicity) = if first == last {
-            (self.turning_point(a, b, lower, upper), changes.max(2))
+            (self.turning_point(a, b, lower, upper), dominant.next_multiple_of(2))
         } else {
-            (self.refine(a, b, first).0, changes.max(1))
+            (self.refine(a, b, first).0, (dominant - 1) / 2 * 2 + 1)
         };
         (self.visit)(RootCluster { lower, upper, root: root.max(S::ZERO).min(S::ONE), multiplicity })
+    }
+
+    /// The degree, at least 1, of the largest term on a circle about `middle`.
+    fn dominant_degree(&self, middle: S, radius: S) -> usize {
+        let mut shifted = [S::ZERO; MAX_COEFFICIENTS];
+        shifted[..self.count].copy_from_slice(self.power);
+        taylor_shift(&mut shifted[..self.count], middle);
+        let (mut dominant, mut largest, mut power) = (1, S::ZERO, S::ONE);
+        for (degree, c) in shifted[..self.count].iter().enumerate() {
+            if degree > 0 && c.abs() * power > largest {
+                (dominant, largest) = (degree, c.abs() * power);
+            }
+            power *= radius;
+        }
+        dominant
     }
 
     /// Where the derivative changes sign between `a` and `b`; the middle of the cluster when it does not.
@@ -373,11 +385,12 @@ mod tests {
             real.push(if r > 0.5 { r - 0.35 } else { r + 0.35 });
             real.push(1.5 + random.next());
             let c = polynomial(&real, &[(0.5, 1.0)]);
-            let found = real_roots(&c, 0.0, 1.0, 0.0);
+            let size: f64 = c.iter().map(|c| c.abs()).sum();
+            // The coefficients themselves are rounded products.
+            let found = real_roots(&c, 0.0, 1.0, 4.0 * f64::EPSILON * size);
             assert_eq!(found.len(), 2, "trial {trial}: {real:?} {found:?}");
             let cluster = found.iter().min_by(|a, b| (a.root - r).abs().total_cmp(&(b.root - r).abs())).unwrap();
             assert_eq!(cluster.multiplicity, multiplicity, "trial {trial}: {cluster:?}");
-            let size: f64 = c.iter().map(|c| c.abs()).sum();
             // c_m = p^(m)/m! at r, from the factors that are not zero there.
             let c_m = (r - real[multiplicity]) * (r - real[multiplicity + 1]) * ((r - 0.5) * (r - 0.5) + 1.0);
             let width = libm::pow(100.0 * f64::EPSILON * size / c_m.abs(), 1.0 / multiplicity as f64);

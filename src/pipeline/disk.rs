@@ -229,7 +229,8 @@ impl Disk {
             .and_then(|()| {
                 let rename = || self.call(Operation::Rename, path, || fs::rename(&temporary, path));
                 match rename() {
-                    Err(error) if error.is_missing() && !parent(path).exists() => {
+                    // Not asked whether the folder is there: another thread may have made it since.
+                    Err(error) if error.is_missing() => {
                         self.create_folder(parent(path))?;
                         rename()
                     }
@@ -245,6 +246,7 @@ impl Disk {
 
     fn create_temporary(&self, scratch: &Path) -> Done<(PathBuf, File)> {
         static COUNTER: AtomicU64 = AtomicU64::new(0);
+        let mut is_made = false;
         loop {
             let count = COUNTER.fetch_add(1, Ordering::Relaxed);
             let path = scratch.join(format!("{TEMPORARY}{}-{count}", std::process::id()));
@@ -254,7 +256,10 @@ impl Disk {
                 Ok(file) => return Ok((path, file)),
                 // Left behind by a killed process of the same number, or in use in another container: take the next.
                 Err(error) if error.kind == io::ErrorKind::AlreadyExists => {}
-                Err(error) if error.is_missing() && !scratch.exists() => self.create_folder(scratch)?,
+                Err(error) if error.is_missing() && !is_made => {
+                    self.create_folder(scratch)?;
+                    is_made = true;
+                }
                 Err(error) => return Err(error),
             }
         }
@@ -307,5 +312,31 @@ fn parent(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Many threads at once put files into folders that are not there yet; none may be refused for another's sake.
+    #[test]
+    fn folders_are_made_by_whoever_comes_first() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for round in 0..50 {
+            let scratch = folder.path().join(format!("scratch-{round}"));
+            let place = folder.path().join(format!("objects-{round}/ab"));
+            std::thread::scope(|scope| {
+                for file in 0..4 {
+                    let (scratch, place) = (&scratch, &place);
+                    scope.spawn(move || {
+                        let path = place.join(file.to_string());
+                        Disk::default().replace(scratch, &path, b"x").expect("written");
+                    });
+                }
+            });
+            assert_eq!(Disk::default().list(&place).expect("listed").len(), 4);
+            assert!(Disk::default().list(&scratch).expect("listed").is_empty());
+        }
     }
 }

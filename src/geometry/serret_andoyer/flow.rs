@@ -12,14 +12,16 @@
 //! `δy'(0) = (C − ν) x'(0) > 0`: δy has a simple zero at t = 0 for every start, `p_y(0) = 0` included, and (as the
 //! normal part of a Jacobi field on a surface) simple zeros only. No equation for δx is needed.
 //!
-//! Source: derived here from (9); the linearised equations are checked against 60-digit differences in the tests.
+//! Source: derived here from (9). The tests compare with the closed form (mpmath, 40 digits), which shares nothing with it.
 //! Units: angles in radians, time as in (9). Not known here: the chart (φ, θ), periods, closed forms.
 
 use crate::numerics::counts::Work;
 use crate::numerics::real::Real;
 use crate::numerics::taylor::dense::sample;
 use crate::numerics::taylor::events::{Component, Events};
-use crate::numerics::taylor::flow::{Columns, Flow, Joined, Series, Tangent, WithColumns, convolve, convolve_square};
+use crate::numerics::taylor::flow::{
+    Algebra, Columns, Flow, Joined, Series, Tangent, WithColumns, convolve, convolve_square, largest,
+};
 use crate::numerics::taylor::integrator::{IntegrationError, Settings, integrate};
 
 /// The flow (9) at a fixed `p_x`. State: `[x, y, p_y, S = sin 2y, w = sin²y]`.
@@ -52,7 +54,7 @@ impl<S: Real> SerretAndoyerFlow<S> {
     }
 }
 
-impl<S: Real> Flow<S> for SerretAndoyerFlow<S> {
+impl<S: Algebra> Flow<S> for SerretAndoyerFlow<S> {
     type State<T: Copy> = [T; 5];
     /// `[C − ν, y', p_x² − p_y²]`.
     type Auxiliary<T: Copy> = [T; 3];
@@ -61,8 +63,8 @@ impl<S: Real> Flow<S> for SerretAndoyerFlow<S> {
     fn coefficients(&self, n: usize, state: &[Series<S>; 5], auxiliary: &mut [Series<S>; 3]) -> [S; 5] {
         let [a, b, c] = self.inverse_inertia;
         let [_, _, p_y, sine, w] = state;
-        let constant = |value: S| if n == 0 { value } else { S::ZERO };
-        let half = S::from_f64(0.5);
+        let constant = |value: S| if n == 0 { value } else { S::number(0.0) };
+        let half = S::number(0.5);
         auxiliary[0][n] = constant(c - b) + (b - a) * w[n];
         auxiliary[1][n] = convolve(p_y, &auxiliary[0], n);
         auxiliary[2][n] = constant(self.p_x * self.p_x) - convolve_square(p_y, n);
@@ -71,19 +73,19 @@ impl<S: Real> Flow<S> for SerretAndoyerFlow<S> {
             self.p_x * (constant(b) - (b - a) * w[n]),
             y_rate[n],
             (b - a) * half * convolve(&auxiliary[2], sine, n),
-            (y_rate[n] - (convolve(w, y_rate, n) * S::from_f64(2.0))) * S::from_f64(2.0),
+            (y_rate[n] - (convolve(w, y_rate, n) * S::number(2.0))) * S::number(2.0),
             convolve(sine, y_rate, n),
         ]
     }
 
     #[inline(always)]
     fn scales(&self, state: &[S; 5]) -> [S; 5] {
-        let one = S::ONE;
-        [one.max(state[0].abs()), one.max(state[1].abs()), self.p_x.abs(), one, one]
+        let one = S::number(1.0);
+        [one.larger(state[0].size()), one.larger(state[1].size()), self.p_x.size(), one, one]
     }
 }
 
-impl<S: Real> Tangent<S> for SerretAndoyerFlow<S> {
+impl<S: Algebra> Tangent<S> for SerretAndoyerFlow<S> {
     /// `[δy, δp_y]`.
     type Column<T: Copy> = [T; 2];
     /// `[p_y S, p_y δp_y, (p_x² − p_y²) δy]`.
@@ -108,7 +110,7 @@ impl<S: Real> Tangent<S> for SerretAndoyerFlow<S> {
         own[2][n] = convolve(&auxiliary[2], delta_y, n);
         // δ(½(p_x² − p_y²) sin 2y) = (p_x δp_x − p_y δp_y) S + (p_x² − p_y²)(1 − 2w) δy.
         let direction = self.p_x * *delta_p_x * sine[n] - convolve(&own[1], sine, n);
-        let position = own[2][n] - convolve(&own[2], w, n) * S::from_f64(2.0);
+        let position = own[2][n] - convolve(&own[2], w, n) * S::number(2.0);
         [
             convolve(&auxiliary[0], delta_p_y, n) + (b - a) * convolve(&own[0], delta_y, n),
             (b - a) * (direction + position),
@@ -118,8 +120,8 @@ impl<S: Real> Tangent<S> for SerretAndoyerFlow<S> {
     #[inline(always)]
     fn column_scales(&self, state: &[S; 5], column: &[S; 2]) -> [S; 2] {
         // δy and δp_y differ in unit by p_x (an angle against a momentum): one size in each unit.
-        let p = self.p_x.abs().max(state[2].abs());
-        let size = (column[0].abs() * p).max(column[1].abs());
+        let p = largest(&[self.p_x, state[2]]);
+        let size = largest(&[column[0] * p, column[1]]);
         [size / p, size]
     }
 }
@@ -234,4 +236,146 @@ pub fn trajectory<S: Real>(
     let flow = posed(a, b, c, y0, p_x, p_y)?;
     let (states, work) = sample(&flow, &flow.start(y0, p_y), S::ZERO, times, &Settings::new(tolerance))?;
     Ok((states.into_iter().map(|[x, y, p_y, ..]| [x, y, p_y]).collect(), work))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const EPSILON: f64 = f64::EPSILON;
+
+    fn first([a, b, c, y0, p_x, p_y]: [f64; 6]) -> IntegratedConjugate<f64> {
+        first_conjugate_time_by_integration(a, b, c, y0, p_x, p_y, 0.0, 1e4, EPSILON).unwrap()
+    }
+
+    /// `[A, B, C, y0, p_x, p_y]`, t1, condition number. Oracle: the pole-free closed form
+    /// `sn T + sn ψ0 sn(T+ψ0)[(1−Λ)T − ε(T)] = 0`, first root by scanning, mpmath with 40 digits; every input is the `f64`.
+    #[rustfmt::skip]
+    const CLOSED_FORM: [([f64; 6], f64, f64); 24] = [
+        ([0.3043980645944723, 0.5435885277031539, 0.600322158251533, 1.3708433458884417, 0.41875422007685215, -0.3085031751926306], 62.953876561892990196, 2.8),
+        ([0.4596591500433876, 0.5611513135989332, 0.8402111014623633, 2.4035411696240847, 0.6072348458706938, 0.089190833048282], 36.761706993861465663, 3.0),
+        ([1.4247199517272147, 2.3792949184973233, 3.582060375322018, 1.7810170314706244, 1.070413439830318, -0.38579777577846114], 3.2949900827164567558, 1.6),
+        ([1.629883066740484, 3.363332047435947, 4.721916194717453, 1.7509440176984115, 1.1928340564794675, 0.8054582050483226], 2.8169891174765899673, 3.7),
+        ([0.4735721623889086, 0.8330117740983871, 0.9220195175917019, 2.004182812642867, 1.5997704725617823, 0.21028453737627417], 5.523811057027494323, 1.2),
+        ([1.7758600612955988, 2.672551996587135, 5.500588474477547, 1.8047986681835495, 1.2858218472802367, -0.10136185525267748], 1.4181145327466343016, 1.6),
+        ([1.7119420049225744, 4.14253601472743, 7.197418499524549, 1.9932109547816208, 0.4031380269152735, 0.14621237263410425], 3.158716919835875944, 1.5),
+        ([1.3648319381498037, 3.3984166660121664, 7.61853969419605, 0.9684079366542029, 0.9558454521594084, 0.29017067665002133], 1.9259136246541633523, 1.3),
+        ([0.24061327050005943, 0.4137244526010819, 0.5352229744128696, 0.5161586451006761, 0.4002225128632277, 0.19323518522271382], 157.15058956845734872, 6.8),
+        ([0.4328123996336316, 0.6098506366333171, 0.98605351021872, 2.5528393301410084, 0.43698821204023564, -0.03996811225488462], 36.166214950594601037, 3.0),
+        ([1.1889918364592673, 2.7714288575259385, 6.202335188604596, 2.532758068185991, 0.7733158096736251, -0.11790457627430032], 3.6294936168464944723, 2.6),
+        ([0.62000495062555, 1.0869901739935885, 2.069878299440442, 0.9094158721060523, 0.30695912575460865, -0.04478420007705869], 15.701844035191420253, 1.2),
+        ([0.8646564312105056, 1.617940595710202, 3.9348185723173463, 2.0643328742671403, 1.176335436220323, 0.24899133271056012], 2.3194584304648812704, 1.3),
+        ([0.9062820324042835, 1.47589778723468, 1.7712674194768911, 1.9125818273514141, 0.40582129675176887, -0.3160431928463906], 44.688163948946432289, 14.0),
+        ([0.3826358624406737, 0.6035064399217495, 0.6559971884416007, 2.560697418909313, 1.343917279240414, -0.8501743359800501], 39.053245957054088373, 4.8),
+        ([1.0387810264878807, 1.819487556323905, 2.1370477399618735, 0.4759065652200548, 0.8824809250131032, -0.37367560044068493], 9.9868193062613161093, 2.0),
+        ([0.6700073550128516, 1.0597604812279169, 1.3694340982992406, 2.284232352685484, 1.2054070757378943, 0.6054745329689545], 10.088733683879063205, 2.7),
+        ([0.25028673575971605, 0.36420646591923095, 0.5192866086239865, 2.069809242590333, 1.9260756297802744, -0.18295827080476626], 10.630913422587291707, 1.6),
+        ([1.8866381622972361, 4.68387201470308, 11.404061675489395, 1.1845168904770385, 0.6747859490936037, -0.331777076505092], 2.3924614675457044749, 5.7),
+        ([0.5540710941547711, 0.7459688397220033, 1.4582917069970645, 2.6308325122871086, 1.7287403963747927, -0.06387321099752066], 6.5061546436654752104, 2.3),
+        ([1.3753604771138161, 3.038836184503892, 3.5643384955537742, 1.983581255553214, 1.846621133837929, 0.9383516494540786], 1.4257554128138223627, 1.7),
+        ([1.550252827694825, 2.7023193094340385, 3.5369481705003465, 2.330665663754746, 0.8652792397698368, 0.4685335001996002], 5.4869740099951431727, 2.9),
+        ([1.687079453267398, 2.287698952990746, 3.2374611403569706, 0.9910099622095911, 0.7089169673491688, 0.11029819522043458], 6.0645092476452521427, 2.3),
+        ([0.6668566314863783, 1.1053603473072822, 1.3707096493176087, 2.6570460520520025, 0.9014328407205401, -0.06788710947191443], 11.061122990848849174, 3.2),
+    ];
+
+    #[test]
+    fn random_starts_agree_with_the_closed_form() {
+        for (start, t1, condition) in CLOSED_FORM {
+            let found = first(start);
+            let error = (found.t1 / t1 - 1.0).abs();
+            // Integration rounds in every step: 10 ε times the condition covers 10 to 60 steps (seen: see the message).
+            assert!(error <= 10.0 * EPSILON * condition.max(1.0), "{start:?}: {} ε of {condition}", error / EPSILON);
+            assert_eq!(found.work.state_dimension, 7);
+        }
+    }
+
+    #[test]
+    fn the_article_example_and_its_mirror() {
+        // A, B, C = 1.5, 2, 2.8; section 5.3 with h computed, and p_y mirrored. Oracle: closed form and integration,
+        // 30 digits. x grows to 9: errors of a few ε × 9.
+        let [y0, p_x] = [1.249045772398254, 1.1];
+        for (p_y, t1, x, y) in [
+            (
+                0.3155946,
+                5.41781860183799075980432766516,
+                9.32458112775174811618814271716,
+                1.24536159351747857997657237644,
+            ),
+            (
+                -0.315594676761190000905765885799,
+                4.61236377724086507731882842846,
+                8.02539313061163599880661660427,
+                2.08193549612533063024942246855,
+            ),
+        ] {
+            let found = first([1.5, 2.0, 2.8, y0, p_x, p_y]);
+            assert!((found.t1 / t1 - 1.0).abs() < 12.0 * EPSILON, "{found:?}");
+            assert!((found.x - x).abs() < 100.0 * EPSILON && (found.y - y).abs() < 20.0 * EPSILON, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_start_at_the_turning_point_is_an_ordinary_start() {
+        // Lemma 3.8: p_y(0) = 0, t1 = 2K/M. Oracle: determinant of the columns, 40 digits.
+        for (y0, p_x, t1) in [
+            (1.0, 1.102312989914123551247831, 3.96691426845181950903169438459),
+            (1.249045772398254425829917, 1.135923668494129622307692, 3.55641202000364641540345482707),
+        ] {
+            let found = first([1.5, 2.0, 2.8, y0, p_x, 0.0]);
+            assert!((found.t1 / t1 - 1.0).abs() < 10.0 * EPSILON, "{found:?}");
+        }
+    }
+
+    #[test]
+    fn later_conjugate_times_and_earlier_ones() {
+        // Armed after t1 the next one is found; backward in time from a start with p_y the mirror p_y forward.
+        let start = [1.5, 2.0, 2.8, 1.0, 1.05, 0.3];
+        let forward = first(start);
+        let [a, b, c, y0, p_x, p_y] = start;
+        let next = first_conjugate_time_by_integration(a, b, c, y0, p_x, p_y, forward.t1 + 1e-6, 1e4, EPSILON).unwrap();
+        assert!(next.t1 > forward.t1 + 0.5, "{next:?}");
+        let backward = first_conjugate_time_by_integration(a, b, c, y0, p_x, p_y, 0.0, -1e4, EPSILON).unwrap();
+        let mirrored = first([a, b, c, y0, p_x, -p_y]);
+        assert!((backward.t1 / mirrored.t1 + 1.0).abs() < 10.0 * EPSILON, "{backward:?} {mirrored:?}");
+        assert!((backward.x / mirrored.x + 1.0).abs() < 20.0 * EPSILON, "{backward:?} {mirrored:?}");
+    }
+
+    #[test]
+    fn rotating_extremals_have_none_and_wrong_input_is_refused() {
+        // ξ1 > 1: h > B p_x²/2 (Corollary 3.11).
+        let none = first_conjugate_time_by_integration(1.5, 2.0, 2.8, 1.0, 1.0, 0.95, 0.0, 200.0, EPSILON);
+        assert_eq!(none, Err(FlowError::NoneBefore { t_max: 200.0 }));
+        for (wrong, expected) in [
+            ([0.0, 2.0, 2.8, 1.0, 1.0, 0.1], "A"),
+            ([2.1, 2.0, 2.8, 1.0, 1.0, 0.1], "B"),
+            ([1.5, 2.0, 2.0, 1.0, 1.0, 0.1], "C"),
+            ([1.5, 2.0, 2.8, f64::NAN, 1.0, 0.1], "y0"),
+            ([1.5, 2.0, 2.8, 1.0, -1.0, 0.1], "p_x"),
+            ([1.5, 2.0, 2.8, 1.0, 1.0, 1.1], "p_y"),
+        ] {
+            let [a, b, c, y0, p_x, p_y] = wrong;
+            let refused = first_conjugate_time_by_integration(a, b, c, y0, p_x, p_y, 0.0, 10.0, EPSILON);
+            assert!(matches!(refused, Err(FlowError::Domain { name, .. }) if name == expected), "{refused:?}");
+        }
+    }
+
+    #[test]
+    fn trajectories_keep_the_energy_and_pass_the_conjugate_point() {
+        let [a, b, c, y0, p_x, p_y] = [1.5, 2.0, 2.8, 1.0, 1.05, 0.3];
+        let conjugate = first([a, b, c, y0, p_x, p_y]);
+        let times: Vec<f64> = (-50..=50).map(|i| 2.0 * f64::from(i)).chain([conjugate.t1]).collect();
+        let (states, work) = trajectory(a, b, c, y0, p_x, p_y, &times, EPSILON).unwrap();
+        let energy = |y: f64, p_y: f64| {
+            let (sine, cosine) = libm::sincos(y);
+            let nu = a * sine * sine + b * cosine * cosine;
+            0.5 * ((p_x * p_x - p_y * p_y) * nu + c * p_y * p_y)
+        };
+        for (t, [_, y, p]) in times.iter().zip(&states) {
+            // y and p_y against each other, each integrated by itself: ε for each of 500 steps, as a random walk and twice.
+            assert!((energy(*y, *p) / energy(y0, p_y) - 1.0).abs() < 100.0 * EPSILON, "{t}");
+        }
+        let [x, y, _] = states[states.len() - 1];
+        assert!((x - conjugate.x).abs() < 1e-14 && (y - conjugate.y).abs() < 1e-14, "{x} {y} {conjugate:?}");
+        assert_eq!((work.state_dimension, work.tangent_evaluations, work.event_evaluations), (5, 0, 0));
+    }
 }

@@ -66,7 +66,7 @@ pub fn sample<S: Real, F: Flow<S>>(
         let mut observer = SampleAt::<S, F>::new(&ordered);
         let arrival = integrate(flow, initial, (start, end), settings, &mut observer)?;
         work = work.plus(arrival.work);
-        // A time equal to the start of an empty span is never inside a step: it keeps the initial state.
+        // A span that ends at its start has no step: its times keep the initial state.
         for (&i, state) in indices.iter().zip(&observer.states) {
             states[i] = *state;
         }
@@ -130,5 +130,52 @@ impl<S: Real, F: Flow<S>> Observer<S, F> for Kept<S> {
         let (start, start_rest) = (step.start.value, step.start.rest);
         self.steps.push(KeptStep { start, start_rest, length: step.length, components, coefficients });
         ControlFlow::Continue(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::taylor::flow::Series;
+
+    /// `x'' = −x`: cosine and sine.
+    struct Circle;
+    impl Flow<f64> for Circle {
+        type State<T: Copy> = [T; 2];
+        type Auxiliary<T: Copy> = [T; 0];
+        fn coefficients(&self, n: usize, x: &[Series<f64>; 2], _: &mut [Series<f64>; 0]) -> [f64; 2] {
+            [-x[1][n], x[0][n]]
+        }
+        fn scales(&self, _: &[f64; 2]) -> [f64; 2] {
+            [1.0; 2]
+        }
+    }
+
+    #[test]
+    fn samples_in_any_order_on_both_sides_of_the_start() {
+        // Oracle: cosine and sine of libm (below one ε); an entire function over a few steps: 5 ε.
+        let times = [3.0, -2.0, 0.0, 10.0, -7.5, 0.25, 10.0];
+        let (states, work) = sample(&Circle, &[1.0, 0.0], 0.0, &times, &Settings::new(f64::EPSILON)).unwrap();
+        for (t, [x, y]) in times.iter().zip(states) {
+            assert!((x - libm::cos(*t)).abs() < 5.0 * f64::EPSILON, "{t}: {x}");
+            assert!((y - libm::sin(*t)).abs() < 5.0 * f64::EPSILON, "{t}: {y}");
+        }
+        assert_eq!((work.dense_points, work.event_evaluations, work.state_dimension), (7, 0, 2));
+        assert!(sample(&Circle, &[1.0, 0.0], 0.0, &[f64::NAN], &Settings::new(1e-9)).is_err());
+        assert!(sample(&Circle, &[1.0, 0.0], 0.0, &[], &Settings::new(1e-9)).unwrap().0.is_empty());
+    }
+
+    #[test]
+    fn kept_polynomials_answer_later() {
+        let mut kept = Kept::new();
+        let end = integrate(&Circle, &[1.0, 0.0], (0.0, -20.0), &Settings::new(1e-12), &mut kept).unwrap();
+        assert_eq!(kept.coefficients() as u64, end.work.steps * 2 * 16);
+        for i in 0..=100 {
+            let t = -0.2 * f64::from(i);
+            let state = kept.at(t).unwrap();
+            assert!((state[0] - libm::cos(t)).abs() < 1e-12 && (state[1] - libm::sin(t)).abs() < 1e-12, "{t}");
+        }
+        assert_eq!(kept.at(0.1), None);
+        assert_eq!(kept.at(-20.1), None);
     }
 }

@@ -1,7 +1,8 @@
 //! Events: every time at which a polynomial function of the state vanishes, none skipped.
 //!
-//! The function is expanded as a Taylor series over the step, as the state itself is, and the real roots of that
-//! polynomial are isolated ([`crate::numerics::polynomial_roots`]): no signs are sampled. A double or triple root is
+//! On a step the state is a polynomial in time, so the function is one too, of higher degree: its coefficients are
+//! computed as far as they matter on the step (a product of two series may converge more slowly than each), and its
+//! real roots are isolated ([`crate::numerics::polynomial_roots`]): no signs are sampled. A double or triple root is
 //! reported once, as a cluster with its width. What the rounding of the series may hide is kept as `noise`: roots at
 //! the joint of two steps, seen by both or by neither within the noise, are joined to one.
 //!
@@ -11,9 +12,9 @@
 //! Not known here: what the function means.
 
 use crate::numerics::counts::Work;
-use crate::numerics::polynomial_roots::{RootCluster, visit_unit_interval_roots};
+use crate::numerics::polynomial_roots::{MAX_COEFFICIENTS, RootCluster, visit_unit_interval_roots};
 use crate::numerics::real::Real;
-use crate::numerics::taylor::flow::{CAPACITY, Elements, Flow, Series};
+use crate::numerics::taylor::flow::{Elements, Flow};
 use crate::numerics::taylor::integrator::{Observer, Step};
 use crate::numerics::taylor::step::{Jet, absolute_sum};
 use std::ops::ControlFlow;
@@ -22,11 +23,20 @@ use std::ops::ControlFlow;
 /// per product and one per sum that meet in a coefficient, most of them far smaller; doubled for both sides of a joint.
 const NOISE_IN_EPSILONS: f64 = 4.0;
 
-/// A function of the state whose zeros are the events.
+/// Coefficients of an event function along a step.
+pub type EventSeries<S> = [S; MAX_COEFFICIENTS];
+
+/// A polynomial function of the state whose zeros are the events.
 pub trait EventFunction<S: Real, F: Flow<S>> {
-    /// Writes the coefficients `0..=order` of the function's series. Returns an upper bound, on offsets up to `length`,
-    /// of the sum of the absolute values of the terms that it adds up: what rounding errors are relative to.
-    fn series(&self, jet: &Jet<S, F>, length: S, out: &mut Series<S>) -> S;
+    /// Its degree in the components of the state.
+    const DEGREE: usize;
+
+    /// Writes the coefficients `0..=last` of the function of the step's polynomials, which end with the jet's order.
+    fn series(&self, jet: &Jet<S, F>, last: usize, out: &mut EventSeries<S>);
+
+    /// An upper bound, on offsets up to `length`, of the sum of the absolute values of the terms that the function adds
+    /// up: what rounding errors are relative to.
+    fn magnitude(&self, jet: &Jet<S, F>, length: S) -> S;
 }
 
 /// A component of the state as event function.
@@ -37,9 +47,12 @@ pub struct Component(
 );
 
 impl<S: Real, F: Flow<S>> EventFunction<S, F> for Component {
-    fn series(&self, jet: &Jet<S, F>, length: S, out: &mut Series<S>) -> S {
-        *out = *jet.state.get(self.0);
-        absolute_sum(out, jet.order(), length)
+    const DEGREE: usize = 1;
+    fn series(&self, jet: &Jet<S, F>, last: usize, out: &mut EventSeries<S>) {
+        out[..=last].copy_from_slice(&jet.state.get(self.0)[..=last]);
+    }
+    fn magnitude(&self, jet: &Jet<S, F>, length: S) -> S {
+        absolute_sum(jet.state.get(self.0), jet.order(), length)
     }
 }
 
@@ -90,6 +103,32 @@ impl<E: EventFunction<S, F>, S: Real, F: Flow<S>> Events<E, S, F> {
         self
     }
 
+    /// The function's coefficients in units of the step, `u = offset / length`, so that they are comparable and the
+    /// interval is `[0, 1]`; the first `shift` left out. With their number and the noise.
+    fn expand(&self, step: &Step<'_, S, F>, shift: usize) -> (EventSeries<S>, usize, S) {
+        let order = step.jet.order();
+        let unit = S::EPSILON * self.function.magnitude(step.jet, step.length);
+        let highest = (E::DEGREE * order).min(MAX_COEFFICIENTS - 1);
+        let mut last = order.min(highest);
+        loop {
+            let mut scaled = [S::ZERO; MAX_COEFFICIENTS];
+            self.function.series(step.jet, last, &mut scaled);
+            let mut power = S::ONE;
+            for c in scaled[..=last].iter_mut() {
+                *c *= power;
+                power *= step.length;
+            }
+            let tail = scaled[last].abs() + scaled[last - 1].abs();
+            let settled = last == order * E::DEGREE || tail <= unit * S::from_f64(0.25);
+            if settled || last == highest {
+                scaled.copy_within(shift..=last, 0);
+                let noise = unit * S::from_f64(NOISE_IN_EPSILONS);
+                return (scaled, last + 1 - shift, if settled { noise } else { noise + tail });
+            }
+            last = (last + order / 2).min(highest);
+        }
+    }
+
     fn report(&mut self, root: EventRoot<S, F::State<S>>, direction: S, work: &mut Work) -> ControlFlow<()> {
         let armed = match self.armed_after {
             Some(time) => (root.time - time) * direction > S::ZERO,
@@ -109,20 +148,8 @@ impl<E: EventFunction<S, F>, S: Real, F: Flow<S>> Observer<S, F> for Events<E, S
             return ControlFlow::Break(());
         }
         work.event_evaluations += 1;
-        let mut series = [S::ZERO; CAPACITY];
-        let magnitude = self.function.series(step.jet, step.length, &mut series);
-        // In units of the step, u = offset / length: the coefficients become comparable, the interval is [0, 1].
         let shift = if step.first { self.vanishing_order } else { 0 };
-        let count = step.jet.order() + 1 - shift;
-        let mut scaled = [S::ZERO; CAPACITY];
-        let mut power = S::ONE;
-        for k in 0..step.jet.order() + 1 {
-            if k >= shift {
-                scaled[k - shift] = series[k] * power;
-            }
-            power *= step.length;
-        }
-        let noise = S::from_f64(NOISE_IN_EPSILONS) * S::EPSILON * magnitude;
+        let (scaled, count, noise) = self.expand(step, shift);
         let direction = if step.length < S::ZERO { -S::ONE } else { S::ONE };
         self.direction = direction;
         let rest = scaled[1..count].iter().fold(noise, |sum, c| sum + c.abs());
@@ -170,4 +197,166 @@ fn locate<S: Real, F: Flow<S>>(cluster: &RootCluster<S>, step: &Step<'_, S, F>) 
     let offset = cluster.root * step.length;
     let blur = (cluster.upper - cluster.lower) * S::from_f64(0.5) * step.length.abs();
     EventRoot { time: step.time(offset), blur, multiplicity: cluster.multiplicity, state: step.state(offset) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::taylor::flow::{Series, product};
+    use crate::numerics::taylor::integrator::{Settings, integrate};
+
+    /// `(cos t, sin t)` and a clock.
+    struct Circle;
+    impl Flow<f64> for Circle {
+        type State<T: Copy> = [T; 3];
+        type Auxiliary<T: Copy> = [T; 0];
+        fn coefficients(&self, n: usize, x: &[Series<f64>; 3], _: &mut [Series<f64>; 0]) -> [f64; 3] {
+            [-x[1][n], x[0][n], if n == 0 { 1.0 } else { 0.0 }]
+        }
+        fn scales(&self, _: &[f64; 3]) -> [f64; 3] {
+            [1.0; 3]
+        }
+    }
+
+    /// `(cos t − c)(cos t − c − gap)` or, cubed, `(cos t − c)³`.
+    struct Power {
+        level: f64,
+        gap: f64,
+        exponent: usize,
+    }
+    impl Power {
+        fn factors(&self, jet: &Jet<f64, Circle>) -> [Series<f64>; 3] {
+            [self.level, self.level + self.gap, self.level].map(|by| {
+                let mut series = jet.state[0];
+                series[0] -= by;
+                series
+            })
+        }
+    }
+    impl EventFunction<f64, Circle> for Power {
+        const DEGREE: usize = 3;
+        fn series(&self, jet: &Jet<f64, Circle>, last: usize, out: &mut EventSeries<f64>) {
+            let factors = self.factors(jet);
+            let mut powers = [0.0; MAX_COEFFICIENTS];
+            powers[0] = 1.0;
+            for factor in &factors[..self.exponent] {
+                let mut next = [0.0; MAX_COEFFICIENTS];
+                for (n, c) in next.iter_mut().enumerate().take(last + 1) {
+                    *c = product(&powers, &factor[..=jet.order()], n);
+                }
+                powers = next;
+            }
+            *out = powers;
+        }
+        fn magnitude(&self, jet: &Jet<f64, Circle>, length: f64) -> f64 {
+            let sizes = self.factors(jet).map(|factor| absolute_sum(&factor, jet.order(), length));
+            sizes[..self.exponent].iter().product()
+        }
+    }
+
+    fn events(function: Power, end: f64, wanted: usize) -> (Vec<EventRoot<f64, [f64; 3]>>, Work) {
+        let mut events = Events::first(wanted, function);
+        let arrival =
+            integrate(&Circle, &[1.0, 0.0, 0.0], (0.0, end), &Settings::new(f64::EPSILON), &mut events).unwrap();
+        (events.found, arrival.work)
+    }
+
+    #[test]
+    fn simple_roots_forward_and_backward() {
+        // cos t = c at ±acos c + 2πn. Oracle: libm's acos; slope sin ≥ 0.1, so 60 ε of absolute error cover rounding.
+        for level in [-0.9, -0.3, 0.0, 0.7, 0.99] {
+            for direction in [1.0, -1.0] {
+                let (found, work) = events(Power { level, gap: 0.0, exponent: 1 }, direction * 40.0, 100);
+                let angle = libm::acos(level);
+                let mut expected = Vec::new();
+                for n in 0..8 {
+                    let turn = 2.0 * std::f64::consts::PI * f64::from(n);
+                    expected.extend([turn + angle, turn + 2.0 * std::f64::consts::PI - angle]);
+                }
+                expected.retain(|t| *t < 40.0);
+                assert_eq!(found.len(), expected.len(), "{level} {direction}: {found:?}");
+                for (root, t) in found.iter().zip(&expected) {
+                    assert!((root.time - direction * t).abs() < 60.0 * f64::EPSILON, "{level}: {root:?} {t}");
+                    assert!((root.state[2] - root.time).abs() < 1e-14 && root.multiplicity == 1);
+                }
+                assert_eq!(work.event_evaluations, work.steps);
+            }
+        }
+    }
+
+    #[test]
+    fn touching_and_triple_roots_are_one_cluster() {
+        // (cos t − c)^m: width (C ε)^(1/m).
+        for (exponent, width) in [(2, 1e-6), (3, 1e-4)] {
+            let (found, _) = events(Power { level: 0.3, gap: 0.0, exponent }, 12.0, 100);
+            let angle = libm::acos(0.3);
+            let turn = 2.0 * std::f64::consts::PI;
+            let expected = [angle, turn - angle, turn + angle, 2.0 * turn - angle];
+            assert_eq!(found.len(), 4, "{exponent}: {found:?}");
+            for (root, t) in found.iter().zip(expected) {
+                assert_eq!(root.multiplicity, exponent, "{root:?}");
+                assert!((root.time - t).abs() < width && root.blur < width, "{root:?} {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn close_pairs_are_not_skipped() {
+        // Roots acos(0.3) and acos(0.3 + gap), closer than any step: signs at steps never see them.
+        let (found, work) = events(Power { level: 0.3, gap: 1e-6, exponent: 2 }, 3.0, 100);
+        assert_eq!(found.len(), 2, "{found:?}");
+        // The pair's slope is 1e-6: ε/1e-6 of error, a few.
+        assert!((found[0].time - libm::acos(0.3 + 1e-6)).abs() < 2e-9, "{found:?}");
+        assert!((found[1].time - libm::acos(0.3)).abs() < 2e-9, "{found:?}");
+        assert!(work.root_isolations <= work.steps);
+    }
+
+    #[test]
+    fn the_start_is_divided_out_and_arming_waits() {
+        // sin t vanishes at 0: divided out, the first event is π; armed after 4, it is 2π.
+        let run = |events: &mut Events<Component, f64, Circle>| {
+            integrate(&Circle, &[1.0, 0.0, 0.0], (0.0, 20.0), &Settings::new(f64::EPSILON), events).unwrap()
+        };
+        let mut first = Events::first(1, Component(1)).vanishing_at_start(1);
+        assert!(run(&mut first).stopped);
+        assert!((first.found[0].time - std::f64::consts::PI).abs() < 4.0 * f64::EPSILON, "{:?}", first.found);
+        let mut later = Events::first(2, Component(1)).vanishing_at_start(1).armed_after(4.0);
+        run(&mut later);
+        assert!((later.found[0].time - 2.0 * std::f64::consts::PI).abs() < 8.0 * f64::EPSILON, "{:?}", later.found);
+        let mut raw = Events::first(9, Component(1));
+        run(&mut raw);
+        assert_eq!(raw.found.len(), 7, "0, π, …, 6π: {:?}", raw.found);
+    }
+
+    #[test]
+    fn a_root_on_the_joint_of_two_steps_is_counted_once() {
+        // The clock reaches the end of a step exactly: every level tried is a step's end, seen from both sides.
+        struct Clock(f64);
+        impl EventFunction<f64, Circle> for Clock {
+            const DEGREE: usize = 1;
+            fn series(&self, jet: &Jet<f64, Circle>, last: usize, out: &mut EventSeries<f64>) {
+                out[..=last].copy_from_slice(&jet.state[2][..=last]);
+                out[0] -= self.0;
+            }
+            fn magnitude(&self, jet: &Jet<f64, Circle>, length: f64) -> f64 {
+                jet.state[2][0] + length.abs() + self.0.abs()
+            }
+        }
+        let mut ends = Vec::new();
+        struct Ends<'a>(&'a mut Vec<f64>);
+        impl Observer<f64, Circle> for Ends<'_> {
+            fn observe(&mut self, step: &Step<'_, f64, Circle>, _: &mut Work) -> ControlFlow<()> {
+                self.0.push(step.time(step.length));
+                ControlFlow::Continue(())
+            }
+        }
+        let settings = Settings::new(f64::EPSILON);
+        integrate(&Circle, &[1.0, 0.0, 0.0], (0.0, 30.0), &settings, &mut Ends(&mut ends)).unwrap();
+        for end in ends {
+            let mut events = Events::first(5, Clock(end));
+            integrate(&Circle, &[1.0, 0.0, 0.0], (0.0, 31.0), &settings, &mut events).unwrap();
+            assert_eq!(events.found.len(), 1, "{end}: {:?}", events.found);
+            assert!((events.found[0].time - end).abs() < 1e-14);
+        }
+    }
 }

@@ -10,7 +10,7 @@
 //! Not known here: step lengths, time, accuracy.
 
 use crate::numerics::real::Real;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// Highest order of a series. A request of `1e-32` needs order 38 (see [`crate::numerics::taylor::step::order_for`]).
 pub const MAX_ORDER: usize = 39;
@@ -23,7 +23,7 @@ pub type Series<S> = [S; CAPACITY];
 
 /// What a flow may do with numbers: no branch on a value, so that packs of numbers, member by member, qualify too.
 pub trait Algebra:
-    Copy + 'static + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+    Copy + 'static + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// The number itself, or all members of a pack set to it.
     fn number(x: f64) -> Self;
@@ -154,6 +154,9 @@ pub trait Flow<S: Algebra> {
     fn scales(&self, state: &Self::State<S>) -> Self::State<S>;
 }
 
+/// The series of a base flow's state and of its auxiliaries.
+pub type BaseSeries<'a, S, F> = (&'a <F as Flow<S>>::State<Series<S>>, &'a <F as Flow<S>>::Auxiliary<Series<S>>);
+
 /// A flow whose linearised equations are known, one solution of them being a *column*.
 pub trait Tangent<S: Algebra>: Flow<S> {
     /// One column, with `T` for each component.
@@ -169,7 +172,7 @@ pub trait Tangent<S: Algebra>: Flow<S> {
         &self,
         n: usize,
         parameter: &Self::ColumnParameter,
-        base: (&Self::State<Series<S>>, &Self::Auxiliary<Series<S>>),
+        base: BaseSeries<'_, S, Self>,
         column: &Self::Column<Series<S>>,
         auxiliary: &mut Self::ColumnAuxiliary<Series<S>>,
     ) -> Self::Column<S>;
@@ -253,6 +256,16 @@ pub fn convolve<S: Algebra>(a: &Series<S>, b: &Series<S>, n: usize) -> S {
     sum
 }
 
+/// Coefficient `n` of the product of two polynomials given by all their coefficients (of any number).
+#[inline(always)]
+pub fn product<S: Algebra>(a: &[S], b: &[S], n: usize) -> S {
+    let mut sum = S::number(0.0);
+    for i in (n + 1).saturating_sub(b.len())..a.len().min(n + 1) {
+        sum = sum + a[i] * b[n - i];
+    }
+    sum
+}
+
 /// Coefficient `n` of the square of a series: half the products of [`convolve`].
 #[inline(always)]
 pub fn convolve_square<S: Algebra>(a: &Series<S>, n: usize) -> S {
@@ -284,6 +297,13 @@ mod tests {
             assert!((convolve(&one, &two, n) / three[n] - 1.0).abs() < 30.0 * f64::EPSILON, "order {n}");
             assert!((convolve_square(&one, n) / two[n] - 1.0).abs() < 30.0 * f64::EPSILON, "order {n}");
         }
+    }
+
+    #[test]
+    fn products_of_polynomials_have_all_their_coefficients() {
+        // (1 + 2t + 3t²)(4 + 5t) = 4 + 13t + 22t² + 15t³, exactly.
+        let all: Vec<f64> = (0..6).map(|n| product(&[1.0, 2.0, 3.0], &[4.0, 5.0], n)).collect();
+        assert_eq!(all, [4.0, 13.0, 22.0, 15.0, 0.0, 0.0]);
     }
 
     #[test]

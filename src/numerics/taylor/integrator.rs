@@ -262,3 +262,130 @@ fn check_request<S: Real>(span: (S, S), settings: &Settings) -> Result<(), Integ
 fn as_numbers<S: Real, F: Flow<S>>(state: &F::State<S>) -> Vec<f64> {
     (0..<F::State<S> as Elements<S>>::LEN).map(|i| state.get(i).to_f64()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::taylor::flow::{Columns, Joined, Series, Tangent, WithColumns, convolve};
+
+    /// `x'' = −x³` with its tangent: Duffing's oscillator without a linear term; x(0) = 1, x'(0) = 0 has the period
+    /// 4·K(½) = 7.416298709205487… (lemniscate), energy x'²/2 + x⁴/4.
+    struct Quartic;
+    impl Flow<f64> for Quartic {
+        type State<T: Copy> = [T; 2];
+        type Auxiliary<T: Copy> = [T; 1];
+        fn coefficients(&self, n: usize, x: &[Series<f64>; 2], a: &mut [Series<f64>; 1]) -> [f64; 2] {
+            a[0][n] = convolve(&x[0], &x[0], n);
+            [x[1][n], -convolve(&a[0], &x[0], n)]
+        }
+        fn scales(&self, _: &[f64; 2]) -> [f64; 2] {
+            [1.0; 2]
+        }
+    }
+    impl Tangent<f64> for Quartic {
+        type Column<T: Copy> = [T; 2];
+        type ColumnAuxiliary<T: Copy> = [T; 0];
+        type ColumnParameter = ();
+        fn column_coefficients(
+            &self,
+            n: usize,
+            _: &(),
+            base: (&[Series<f64>; 2], &[Series<f64>; 1]),
+            d: &[Series<f64>; 2],
+            _: &mut [Series<f64>; 0],
+        ) -> [f64; 2] {
+            [d[1][n], -3.0 * convolve(&base.1[0], &d[0], n)]
+        }
+        fn column_scales(&self, _: &[f64; 2], d: &[f64; 2]) -> [f64; 2] {
+            [d[0].abs().max(d[1].abs()); 2]
+        }
+    }
+
+    const PERIOD: f64 = 7.416298709205487;
+
+    #[test]
+    fn one_period_returns_to_the_start() {
+        // Oracle: the period 4 K(½) (DLMF 19.20.2, the lemniscate constant). dx/dt = 0 there; dv/dt = −1: the last
+        // bit of PERIOD counts 4 ε. Errors at least as small as asked, times the number of steps.
+        for tolerance in [1e-3, 1e-6, 1e-9, 1e-12, f64::EPSILON] {
+            let end = integrate(&Quartic, &[1.0, 0.0], (0.0, PERIOD), &Settings::new(tolerance), &mut ()).unwrap();
+            let allowed = 30.0 * tolerance;
+            assert!((end.state[0] - 1.0).abs() <= allowed, "{tolerance}: {end:?}");
+            assert!(end.state[1].abs() <= allowed, "{tolerance}: {end:?}");
+            assert_eq!(end.work.state_dimension, 2);
+            assert_eq!(end.work.flow_evaluations, end.work.steps * order_for(tolerance) as u64);
+            assert_eq!((end.work.tangent_evaluations, end.work.event_evaluations, end.work.dense_points), (0, 0, 0));
+        }
+    }
+
+    #[test]
+    fn there_and_back_again() {
+        let settings = Settings::new(f64::EPSILON);
+        let there = integrate(&Quartic, &[1.0, 0.25], (2.0, 12.0), &settings, &mut ()).unwrap();
+        let back = integrate(&Quartic, &there.state, (12.0, 2.0), &settings, &mut ()).unwrap();
+        // The flow's growth over t = 10 is about 10 (linear in t): 10² · a few ε.
+        assert!((back.state[0] - 1.0).abs() < 300.0 * f64::EPSILON, "{back:?}");
+        assert!((back.state[1] - 0.25).abs() < 300.0 * f64::EPSILON, "{back:?}");
+        let none = integrate(&Quartic, &[1.0, 0.25], (2.0, 2.0), &settings, &mut ()).unwrap();
+        assert_eq!((none.state, none.work.steps), ([1.0, 0.25], 0));
+    }
+
+    #[test]
+    fn columns_are_derivatives_and_steer_only_when_asked() {
+        let system = WithColumns { flow: Quartic, parameters: [(), ()] };
+        let start = Joined { base: [1.0, 0.25], columns: Columns([[1.0, 0.0], [0.0, 1.0]]) };
+        let with = |norm| Settings { norm, ..Settings::new(f64::EPSILON) };
+        let end = integrate(&system, &start, (0.0, 3.0), &with(ErrorNorm::WithColumns), &mut ()).unwrap();
+        let [[a, c], [b, d]] = end.state.columns.0;
+        // Liouville: the flow keeps areas, the determinant of the columns is 1 (terms of size 5: 30 ε).
+        assert!((a * d - b * c - 1.0).abs() < 30.0 * f64::EPSILON, "{end:?}");
+        // Central differences of the base flow: error δ²·x''' ~ 1e-9 at δ = 1e-5.
+        let base = |x, v| integrate(&Quartic, &[x, v], (0.0, 3.0), &with(ErrorNorm::WithColumns), &mut ()).unwrap();
+        let (plus, minus) = (base(1.0 + 1e-5, 0.25), base(1.0 - 1e-5, 0.25));
+        assert!(((plus.state[0] - minus.state[0]) / 2e-5 - a).abs() < 1e-7, "{a}");
+        assert!(((plus.state[1] - minus.state[1]) / 2e-5 - c).abs() < 1e-7, "{c}");
+        assert_eq!(end.work.tangent_evaluations, 2 * end.work.flow_evaluations);
+        assert_eq!(end.work.state_dimension, 6);
+        // With the base flow steering, columns change no bit of it.
+        let alone = base(1.0, 0.25);
+        let beside = integrate(&system, &start, (0.0, 3.0), &with(ErrorNorm::BaseOnly), &mut ()).unwrap();
+        assert_eq!(alone.state.map(f64::to_bits), beside.state.base.map(f64::to_bits));
+        assert_eq!(alone.work.steps, beside.work.steps);
+    }
+
+    struct Riccati;
+    impl Flow<f64> for Riccati {
+        type State<T: Copy> = [T; 1];
+        type Auxiliary<T: Copy> = [T; 0];
+        fn coefficients(&self, n: usize, x: &[Series<f64>; 1], _: &mut [Series<f64>; 0]) -> [f64; 1] {
+            [convolve(&x[0], &x[0], n)]
+        }
+        fn scales(&self, x: &[f64; 1]) -> [f64; 1] {
+            [x[0].abs()]
+        }
+    }
+
+    #[test]
+    fn errors_carry_time_and_state() {
+        // x' = x² from 1 blows up at t = 1.
+        let settings = Settings { maximum_steps: 20, ..Settings::new(1e-12) };
+        match integrate(&Riccati, &[1.0], (0.0, 2.0), &settings, &mut ()) {
+            Err(IntegrationError::StepLimit { steps: 20, time, end, state }) => {
+                assert!(time > 0.8 && time < 1.0 && end == 2.0 && state.len() == 1, "{time} {state:?}");
+                assert!((state[0] * (1.0 - time) - 1.0).abs() < 1e-10, "{time} {state:?}");
+            }
+            other => panic!("{other:?}"),
+        }
+        let long = integrate(&Riccati, &[1.0], (0.0, 2.0), &Settings::new(1e-12), &mut ());
+        assert!(
+            matches!(long, Err(IntegrationError::StepTooShort { time, .. }) if (time - 1.0).abs() < 1e-12),
+            "{long:?}"
+        );
+        let wrong = integrate(&Riccati, &[f64::NAN], (0.0, 2.0), &settings, &mut ());
+        assert!(matches!(wrong, Err(IntegrationError::NotFinite { time, .. }) if time == 0.0), "{wrong:?}");
+        for (tolerance, end) in [(0.0, 1.0), (f64::NAN, 1.0), (1e-9, f64::INFINITY)] {
+            let refused = integrate(&Riccati, &[1.0], (0.0, end), &Settings::new(tolerance), &mut ());
+            assert!(matches!(refused, Err(IntegrationError::Request { .. })), "{refused:?}");
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! The code that a kind of node declares is the code that it reaches: else an edit would not make its results stale.
+
+use polhode::contract::code;
+use polhode::contract::node::Kind;
+use polhode::contract::plan::{ConfigSource, Plan};
+use polhode::experiments;
+use std::collections::BTreeMap;
+
+fn plans() -> Vec<Plan> {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/experiments");
+    let plan = |experiment: &experiments::definition::Experiment| {
+        let file = format!("{folder}/{}.toml", experiment.kind);
+        let text = std::fs::read_to_string(&file).unwrap_or_else(|error| panic!("{file}: {error}"));
+        let planned = experiment.plan(experiment.kind, &ConfigSource { file, text }, None);
+        planned.unwrap_or_else(|error| panic!("{error}")).plan
+    };
+    experiments::ALL.iter().map(plan).collect()
+}
+
+fn kinds() -> BTreeMap<&'static str, &'static Kind> {
+    let mut kinds = BTreeMap::new();
+    for node in plans().iter().flat_map(|plan| &plan.nodes) {
+        let kind = node.compute.kind();
+        let known = kinds.insert(kind.name, kind);
+        assert!(known.is_none_or(|known| known == kind), "two kinds are called {}", kind.name);
+    }
+    kinds
+}
+
+/// Experiments plan, draw and find in one file, so a reader's file names rooms that only its planning uses. A picture depends on
+/// its experiment's file, on how experiments are read, on plot and table; findings on the first two, on claims, values and table.
+fn is_planning(kind: &Kind, to: &str) -> bool {
+    let planning = ["effects/", "experiments/nodes.rs", "contract/config", "contract/sweep.rs"];
+    let finding = ["contract/claim.rs", "contract/value.rs"];
+    let starts = |prefixes: &[&str]| prefixes.iter().any(|prefix| to.starts_with(prefix));
+    match kind.name.rsplit('-').next() {
+        Some("picture") => starts(&planning) || starts(&finding),
+        Some("findings") => starts(&planning) || to.starts_with("plot/"),
+        _ => false,
+    }
+}
+
+#[test]
+fn every_kind_declares_all_the_code_that_it_reaches() {
+    let mut wrong = Vec::new();
+    for kind in kinds().values() {
+        match code::undeclared(kind) {
+            Ok(missing) => {
+                let missing = missing.iter().filter(|(_, to)| !is_planning(kind, to));
+                wrong.extend(missing.map(|(from, to)| format!("{}: {from} uses {to}", kind.name)));
+            }
+            Err(error) => wrong.push(format!("{}: {error}", kind.name)),
+        }
+    }
+    assert!(wrong.is_empty(), "code used and not declared:\n{}", wrong.join("\n"));
+}
+
+/// A change to `src/plot` must rerun no integration, and one to numerics must redraw nothing by itself.
+#[test]
+fn only_pictures_depend_on_how_things_are_drawn() {
+    for kind in kinds().values() {
+        let listing = code::listing(kind).expect("code that exists");
+        let has = |room: &str| listing.lines.iter().any(|(file, _)| file.starts_with(&format!("{room}/")));
+        let is_picture = kind.name.ends_with("picture");
+        assert_eq!(has("plot"), is_picture, "{} and plot", kind.name);
+        let reads = is_picture || kind.name.ends_with("findings");
+        assert!(!(reads && (has("numerics") || has("geometry"))), "{} reaches numerics", kind.name);
+        assert!(!(has("pipeline") || has("cli")), "{} reaches the runner", kind.name);
+    }
+}
