@@ -2,6 +2,7 @@
 
 pub mod definition;
 pub mod nodes;
+pub mod spin_branches;
 #[cfg(test)]
 pub mod preview;
 
@@ -13,4 +14,6 @@ macro_rules! experiments {
     };
 }
 
-experiments! {}
+experiments! {
+    fig7
+}

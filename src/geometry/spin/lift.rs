@@ -23,6 +23,9 @@ use crate::numerics::taylor::flow::{Algebra, Columns, Flow, Joined, Series, Tang
 use crate::numerics::taylor::integrator::{IntegrationError, Settings, integrate};
 use crate::numerics::taylor::step::{Jet, absolute_sum};
 
+/// The smallest scale of `(h1, h2)`: below it they don't matter to anything up to times of `70/√(1/k² − 1)`.
+const SMALLEST_SCALE: f64 = 1e-30;
+
 /// The lifted flow. State: `[r1, r2, r3, h1, h2, h3]`.
 #[derive(Clone, Copy, Debug)]
 pub struct SpinLift<S> {
@@ -64,10 +67,11 @@ impl<S: Algebra> Flow<S> for SpinLift<S> {
 
     #[inline(always)]
     fn scales(&self, state: &[S; 6]) -> [S; 6] {
-        // r is a unit vector; the components of h turn into each other. Within √3 of |h|.
-        let one = S::number(1.0);
-        let h = largest(&state[3..]);
-        [one, one, one, h, h, h]
+        // r is a unit vector. h1 and h2 obey a linear system with the factor h3: near the meridian, where they are of the size
+        // of p_θ and grow exponentially, an error of the size of ε|h| would be one of ε/p_θ. So they have a scale of their own.
+        let (one, h) = (S::number(1.0), largest(&state[3..]));
+        let across = largest(&state[3..5]).larger(S::number(SMALLEST_SCALE));
+        [one, one, one, across, across, h]
     }
 }
 
