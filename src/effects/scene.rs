@@ -171,6 +171,60 @@ impl Phi0Start {
     }
 }
 
+/// `start = { phi0 = 0.0, p_theta = [0.62, 0.75] }`: a fan of extremals of the Serret-Andoyer metric from one point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FanStart {
+    /// Distance from the equator (length), `|phi0| < K(k)/alpha`.
+    pub phi0: f64,
+    /// Clairaut constants, `|p_theta| ≤ √μ(phi0)`: a number, a list or a range.
+    pub p_theta: Sweep,
+}
+
+impl FanStart {
+    /// Refuses a start outside the strip of a metric and constants that no direction has.
+    ///
+    /// # Errors
+    /// The first value that is not accepted.
+    pub fn validate(&self, inertia: Inertia) -> Result<(), Invalid> {
+        let Inertia { a, b, c } = inertia;
+        let Ok(metric) = Metric::new(a, b, c) else { return inertia.validate("scene.metric.serret-andoyer") };
+        let accepted = format!("|phi0| < K(k)/alpha = {:.6}", metric.half_width());
+        let inside = self.phi0.abs() < metric.half_width();
+        Invalid::number(inside, "scene.start.phi0", self.phi0, accepted)?;
+        let largest = metric.mu(self.phi0).sqrt();
+        let accepted = format!("0 <= p_theta <= sqrt(mu(phi0)) = {largest:.6}");
+        self.p_theta.validate_each("scene.start.p_theta", &accepted, |p_theta| (0.0..=largest).contains(&p_theta))
+    }
+}
+
+/// `start = { phi0 = -0.75, p_theta = [0.64, 0.75] }`: a start, and Clairaut constants that it need not have itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Phi0Family {
+    /// Distance from the equator (length), `|phi0| < K(k)/alpha`.
+    pub phi0: f64,
+    /// Clairaut constants, `0 ≤ p_theta ≤ A^(−1/2)`: a number, a list or a range.
+    pub p_theta: Sweep,
+}
+
+impl Phi0Family {
+    /// Refuses a start outside the strip of a metric and constants that no extremal has.
+    ///
+    /// # Errors
+    /// The first value that is not accepted.
+    pub fn validate(&self, inertia: Inertia) -> Result<(), Invalid> {
+        let Inertia { a, b, c } = inertia;
+        let Ok(metric) = Metric::new(a, b, c) else { return inertia.validate("scene.metric.serret-andoyer") };
+        let accepted = format!("|phi0| < K(k)/alpha = {:.6}", metric.half_width());
+        let inside = self.phi0.abs() < metric.half_width();
+        Invalid::number(inside, "scene.start.phi0", self.phi0, accepted)?;
+        let largest = metric.equator_clairaut();
+        let accepted = format!("0 <= p_theta <= A^(-1/2) = {largest:.6}");
+        self.p_theta.validate_each("scene.start.p_theta", &accepted, |p_theta| (0.0..=largest).contains(&p_theta))
+    }
+}
+
 impl Inertia {
     /// Which config keys the leaves below `body` of a node come from.
     pub fn origins(metric: &str) -> Vec<(&'static str, String)> {
