@@ -59,7 +59,7 @@ impl From<WorkspaceError> for Refused {
             | WorkspaceError::Unreadable { .. }
             | WorkspaceError::Accuracy(_)
             | WorkspaceError::UnknownTarget { .. } => Exit::Usage,
-            WorkspaceError::Configs(_) | WorkspaceError::UnknownKind(_) => Exit::Config,
+            WorkspaceError::Configs(_) => Exit::Config,
             WorkspaceError::Defect(_) => Exit::Defect,
         };
         Self { exit, text: error.to_string() }
