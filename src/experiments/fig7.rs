@@ -178,7 +178,8 @@ impl Definition for Fig7 {
             caption.push_str(&format!(
                 " Thick: the conjugate locus for p_φ(0) = ±2 and p_θ(0) of both signs, points where the phase of the closed form is π, relative \
                  error of t1 below 1e-14; one branch, p_φ = −2, p_θ ≥ 0, has {} points, the others are its mirror images. It is continued beyond \
-                 θ = ±π, which is one meridian, to show the cusps: the limits p_θ → 0, on the far side of the equator. Insets: the cusp of p_φ = −2, φ over θ − π.",
+                 θ = ±π, which is one meridian, to show the cusps: the limits p_θ → 0, on the far side of the equator. Insets: the cusp of p_φ = −2 at its own scale, as difference of φ over difference of θ to its tip, which points away from the \
+                 equator; the smaller k, the smaller it is (for k = 0.2 less than 1e-14).",
                 counts.join(", ")
             ));
         }

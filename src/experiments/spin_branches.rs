@@ -14,7 +14,7 @@ use crate::effects::spin::conjugate_locus::ConjugateLocus;
 use crate::effects::spin::contact::contact_coefficient;
 use crate::effects::spin::momenta::Momenta;
 use crate::plot::axis::Axis;
-use crate::plot::mark::{Curve, Mark};
+use crate::plot::mark::Curve;
 use crate::plot::picture::{Inset, Place};
 use crate::plot::role::Role;
 use crate::table::{Table, TableError, Tables};
@@ -128,35 +128,45 @@ impl<'a> Branch<'a> {
     }
 }
 
-/// How far from a cusp its inset reaches, in R³.
+/// How far from a cusp its inset reaches at most, in R³.
 const REACH: f64 = 0.15;
+/// A cusp that turns back within less than this is not shown: its points are known to 1e-15.
+const SMALLEST_CUSP: f64 = 1e-9;
+/// How far the inset of a cusp that turns back reaches, in units of where it is level with its tip again.
+const BEYOND_TURN: f64 = 2.5;
 
-/// An inset that shows the cusp of a half locus at its own scale: φ over `θ − theta`, `theta` being the meridian of the cusp.
+/// An inset that shows the cusp of a half locus at its own scale: `φ − phi` over `θ − theta`, from the cusp.
+///
+/// For k < 1 the tip points away from the equator and the locus soon turns back past it; the smaller k, the smaller is that tip.
 pub fn cusp_inset(branch: &Branch<'_>, place: Place, size: (f64, f64)) -> Inset {
     let [r1, r2, r3] = branch.r;
-    let near = |i: usize| {
+    let away = |i: usize| {
         let [x, y, z] = [r1[i] - r1[0], r2[i] - r2[0], r3[i] - r3[0]];
-        x * x + y * y + z * z <= REACH * REACH
+        (x * x + y * y + z * z).sqrt()
     };
-    let last = (1..r1.len()).find(|i| !near(*i)).unwrap_or(r1.len()) - 1;
-    let offset = |i: usize| branch.theta[i] - branch.theta[0];
-    let width = (0..=last).map(|i| offset(i).abs()).fold(f64::MIN_POSITIVE, f64::max);
-    let low = (0..=last).map(|i| branch.phi[i]).fold(f64::INFINITY, f64::min);
-    let high = (0..=last).map(|i| branch.phi[i]).fold(f64::NEG_INFINITY, f64::max);
-    let margin = 0.15 * (high - low);
-    let shown = (last + 2).min(r1.len());
-    let curve = |sign: f64| (0..shown).map(|i| (sign * offset(i), branch.phi[i])).collect::<Vec<_>>();
-    let mut points: Vec<(f64, f64)> = curve(1.0).into_iter().rev().collect();
-    points.extend(curve(-1.0).into_iter().skip(1));
-    let marks: Vec<Mark> = vec![Curve::new(Role::ConjugateLocus, points).into()];
-    let (tick, text) = round_below(width);
-    let ticks = [(-tick, format!("−{text}")), (tick, text)];
+    let count = r1.len();
+    let offset = |i: usize| (branch.theta[i] - branch.theta[0], branch.phi[i] - branch.phi[0]);
+    let farthest = (1..count).find(|i| away(*i) > REACH).unwrap_or(count) - 1;
+    // The last point within reach on the other side of the tip's level.
+    let direction = offset(farthest).1;
+    let turn = (1..=farthest).rev().find(|i| offset(*i).1 * direction < 0.0 && away(*i) > SMALLEST_CUSP);
+    let reach = turn.map_or(REACH, |i| (BEYOND_TURN * away(i)).min(REACH));
+    let shown = ((1..count).find(|i| away(*i) > reach).unwrap_or(count) + 1).min(count);
+    let inside = || (0..shown - 1).map(offset);
+    let width = inside().map(|(x, _)| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let (low, high) = inside().fold((0.0, 0.0), |(low, high): (f64, f64), (_, y)| (low.min(y), high.max(y)));
+    let margin = 0.15 * (high - low).max(f64::MIN_POSITIVE);
+    let half: Vec<(f64, f64)> = (0..shown).map(offset).collect();
+    let mirrored = half.iter().skip(1).map(|(x, y)| (-x, *y));
+    let points = half.iter().rev().copied().chain(mirrored).collect();
+    let ((x, across), (y, up)) = (round_below(width), round_below(high.max(-low)));
+    let y = if high >= -low { (y, up) } else { (-y, format!("−{up}")) };
     Inset {
-        x: Axis::new("").fixed(-1.15 * width, 1.15 * width).ticks_at(ticks),
-        y: Axis::new("").fixed(low - margin, high + margin),
+        x: Axis::new("").fixed(-1.15 * width, 1.15 * width).ticks_at([(-x, format!("−{across}")), (x, across)]),
+        y: Axis::new("").fixed(low - margin, high + margin).ticks_at([(0.0, "0".to_owned()), y]),
         place,
         size,
-        marks: Some(marks),
+        marks: Some(vec![Curve::new(Role::ConjugateLocus, points).into()]),
         source: false,
     }
 }

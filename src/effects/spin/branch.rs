@@ -21,10 +21,10 @@ const INTERVALS_PER_DECADE: f64 = 2.0;
 const GAP: f64 = 0.1;
 /// How far from the cusp its own scale counts, in R³.
 const CUSP: f64 = 0.3;
-/// Distance from the cusp at which that ends, in units of `step`: 1e-4 of the neighbourhood for a step of 0.1.
-const CUSP_END: f64 = 3e-4;
+/// Distance from the cusp at which that ends, in units of `step`: 1e-7 for a step of 0.1.
+const CUSP_END: f64 = 1e-6;
 /// The largest ratio of neighbours' distances from the cusp, and of their distances from its meridian.
-const CUSP_RATIO: f64 = 2.0;
+const CUSP_RATIO: f64 = 1.5;
 /// Rounding errors of an integration in f64, in ε of the state: steps and series.
 const ROUNDING: f64 = 4.0;
 
