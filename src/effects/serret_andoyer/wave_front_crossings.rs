@@ -89,7 +89,6 @@ impl WaveFrontCrossings {
             // first·a − second·b = gap
             let cross = a.1 * b.0 - a.0 * b.1;
             let (x, y) = ((gap.1 * b.0 - gap.0 * b.1) / cross, (a.0 * gap.1 - a.1 * gap.0) / cross);
-            let y = -y;
             if !(x.is_finite() && y.is_finite()) {
                 break;
             }
@@ -159,20 +158,24 @@ impl Compute for WaveFrontCrossings {
         };
         let late = found.iter().map(half_period).collect::<Result<Vec<_>, _>>().map_err(failed("half period"))?;
         let column = |f: &dyn Fn(&Crossing) -> f64| found.iter().map(f).collect::<Vec<_>>();
-        let table = Table::builder("wave-front-crossings", "self-crossings of a wave front, p_θ > 0, in the order of χ1")
-            .column("chi1", "rad", "direction of the one extremal", column(&|c| c.chi.0))
-            .column("chi2", "rad", "direction of the other", column(&|c| c.chi.1))
-            .column("p_theta1", "1", "Clairaut's constant of the one", column(&|c| directions.p_theta(c.chi.0)))
-            .column("p_theta2", "1", "Clairaut's constant of the other", column(&|c| directions.p_theta(c.chi.1)))
-            .column("theta", "rad", "θ of the crossing", column(&|c| c.theta))
-            .column("phi", "length", "φ of the crossing", column(&|c| c.phi))
-            .column("gap", "1", "distance of the two points", column(&|c| c.gap))
-            .column("distance", "1", "distance from the cut ray φ = −φ0, θ ≥ Δθ(√μ(φ0))", column(&distance))
-            .column("half_period_difference", "length", "T(p_θ)/2 − t", late)
-            .build()
-            .map_err(failed("crossings"))?;
+        let table =
+            Table::builder("wave-front-crossings", "self-crossings of a wave front, p_θ > 0, in the order of χ1")
+                .column("chi1", "rad", "direction of the one extremal", column(&|c| c.chi.0))
+                .column("chi2", "rad", "direction of the other", column(&|c| c.chi.1))
+                .column("p_theta1", "1", "Clairaut's constant of the one", column(&|c| directions.p_theta(c.chi.0)))
+                .column("p_theta2", "1", "Clairaut's constant of the other", column(&|c| directions.p_theta(c.chi.1)))
+                .column("theta", "rad", "θ of the crossing", column(&|c| c.theta))
+                .column("phi", "length", "φ of the crossing", column(&|c| c.phi))
+                .column("gap", "1", "distance of the two points", column(&|c| c.gap))
+                .column("distance", "1", "distance from the cut ray φ = −φ0, θ ≥ Δθ(√μ(φ0))", column(&distance))
+                .column("half_period_difference", "length", "T(p_θ)/2 − t", late)
+                .build()
+                .map_err(failed("crossings"))?;
         let positions = 6 * steps;
         let roots_solved = found.len() as u64;
-        product(&table, Work { elliptic_calls: 8 * positions, roots_solved, dense_points: positions, ..Work::default() })
+        product(
+            &table,
+            Work { elliptic_calls: 8 * positions, roots_solved, dense_points: positions, ..Work::default() },
+        )
     }
 }
