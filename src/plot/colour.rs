@@ -45,7 +45,7 @@ impl Colour {
     }
 }
 
-/// Stops of batlow at i/255 for i = 0, 16, …, 240, 255 (cmcrameri 1.9, rounded to bytes).
+/// Stops of batlow at i/255 for i = 0, 16, …, 240, 255 (cmcrameri 1.10, rounded to bytes).
 const BATLOW: [(u8, u8, u8); 17] = [
     (1, 25, 89),
     (13, 49, 93),

@@ -163,7 +163,10 @@ fn draw_piece(area: &DrawingArea<Paper, Mapping>, frame: &Frame, piece: &Piece) 
             for part in clip::line(points, &window) {
                 area.draw(&PathElement::new(part, style(colour, width, false))).map_err(failed)?;
             }
-            let on_page: Vec<Vec<(f64, f64)>> = visible(frame, points);
+            if piece.arrows.is_empty() {
+                return Ok(());
+            }
+            let on_page = visible(frame, points);
             let total: f64 = on_page.iter().flat_map(|part| part.windows(2).map(length)).sum();
             for &fraction in &piece.arrows {
                 if let Some((tip, direction)) = at_length(&on_page, fraction * total) {
@@ -208,7 +211,7 @@ pub fn visible(frame: &Frame, points: &[(f64, f64)]) -> Vec<Vec<(f64, f64)>> {
 fn arrow_head(at: (f64, f64), direction: (f64, f64), width: f64, at_tip: bool) -> Vec<(i32, i32)> {
     let size = length(&[(0.0, 0.0), direction]);
     let (ux, uy) = (direction.0 / size, direction.1 / size);
-    let (long, half) = (3.6 + 1.6 * width, 1.25 + 0.6 * width);
+    let (long, half) = (4.2 + 1.6 * width, 1.4 + 0.6 * width);
     let tip = if at_tip { 0.0 } else { long / 2.0 };
     let corner = |forward: f64, aside: f64| {
         (hundredths(at.0 + forward * ux - aside * uy), hundredths(at.1 + forward * uy + aside * ux))
@@ -223,7 +226,14 @@ pub fn scene(frame: &Frame, pieces: &[Piece], bounds: Rect) -> Scene {
         match &piece.shape {
             Shape::Line(points) if piece.role != super::role::Role::Grid => {
                 for part in visible(frame, points) {
-                    scene.segments.extend(part.windows(2).map(|s| (s[0], s[1])));
+                    // Steps of a point are fine enough to keep a label off a curve.
+                    let mut from = part[0];
+                    for (i, &to) in part.iter().enumerate() {
+                        if i + 1 == part.len() || length(&[from, to]) > 1.0 {
+                            scene.segments.push((from, to));
+                            from = to;
+                        }
+                    }
                 }
             }
             Shape::Glyphs(points, _) => {

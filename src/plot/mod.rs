@@ -3,9 +3,9 @@
 //! An experiment says *what* is drawn (panels, axes, marks, each with a [`Role`](role::Role)); this room decides *how*:
 //! colours, dashes, widths, ticks, places of labels. One role keeps one look in all figures.
 //!
-//! - `picture`, `axis`, `mark`, `inset`, `role`, `label`: the data model an experiment builds.
+//! - `picture`, `axis`, `mark`, `role`, `label`: the data model an experiment builds.
 //! - `render`: checks the picture, lays the panels out, draws them; [`render::render`] is the one way out.
-//! - `layout`, `frame`, `ticks`, `place`, `series`, `sphere`: how.
+//! - `layout`, `frame`, `ticks`, `pieces`, `sphere`, `clip`, `draw`, `place`, `legend`, `colour`, `font`: how.
 //! - `backend`: the plotters backend that reads plotters' integers as hundredths of a point; `svg`: the document it writes.
 //!
 //! Lengths on paper are points (1 pt = 1/72 inch) unless a name says millimetres. Coordinates that reach the page are

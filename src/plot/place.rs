@@ -93,20 +93,32 @@ pub fn moved_inside(spot: Spot, bounds: &Rect) -> Spot {
 impl Scene {
     /// How bad it is to cover this rectangle.
     pub fn cost(&self, rect: &Rect) -> f64 {
+        self.cost_up_to(rect, f64::INFINITY)
+    }
+
+    /// The cost when it is below `limit`, else anything not below it: what is already too dear is not looked at further.
+    fn cost_up_to(&self, rect: &Rect, limit: f64) -> f64 {
         let outside = if self.bounds.holds(rect, 0.0) { 0.0 } else { 1e6 };
         let texts = self.taken.iter().filter(|taken| taken.overlaps(&rect.grown(0.8), 0.0)).count() as f64;
         let dots = self.dots.iter().filter(|dot| dot.overlaps(&rect.grown(0.4), 0.0)).count() as f64;
         let room = rect.grown(0.9);
-        let covered: f64 = self.segments.iter().map(|&(a, b)| length_inside(a, b, &room)).sum();
-        outside + 1e4 * texts + 40.0 * dots + 6.0 * covered
+        let mut cost = outside + 1e4 * texts + 40.0 * dots;
+        for &(a, b) in &self.segments {
+            if cost >= limit {
+                return cost;
+            }
+            cost += 6.0 * length_inside(a, b, &room);
+        }
+        cost
     }
 
     /// The best of some spots, with the cost of taking each as such.
     pub fn best(&self, spots: impl IntoIterator<Item = (Spot, f64)>) -> Option<Spot> {
         let mut best: Option<(Spot, f64)> = None;
         for (spot, own) in spots {
-            let cost = own + self.cost(&spot.rect);
-            if best.is_none_or(|(_, least)| cost < least) {
+            let least = best.map_or(f64::INFINITY, |(_, least)| least);
+            let cost = own + self.cost_up_to(&spot.rect, least - own);
+            if best.is_none() || cost < least {
                 best = Some((spot, cost));
             }
         }
@@ -115,7 +127,7 @@ impl Scene {
 }
 
 /// Length of the part of a segment inside a rectangle.
-fn length_inside(a: Point, b: Point, rect: &Rect) -> f64 {
+pub fn length_inside(a: Point, b: Point, rect: &Rect) -> f64 {
     // Most segments are far away.
     if a.0.max(b.0) < rect.left || a.0.min(b.0) > rect.right || a.1.max(b.1) < rect.top || a.1.min(b.1) > rect.bottom {
         return 0.0;

@@ -1,5 +1,6 @@
 //! From a picture to the bytes of its SVG: the one way out of this room.
 
+use super::axis::{Axis, Ticks};
 use super::backend::Paper;
 use super::colour::{Colour, batlow};
 use super::draw::{self, SharedPaper};
@@ -14,6 +15,7 @@ use super::pieces::{self, Pieces, Target, Wish};
 use super::place::{self, GAP, SIDES, Scene, Spot};
 use super::svg::{Anchor, Document, Rect, TextBox, TextKind, TextStyle, hundredths};
 use std::cell::RefCell;
+use std::f64::consts::PI;
 use std::rc::Rc;
 
 /// The SVG of a picture.
@@ -31,10 +33,12 @@ pub fn text_boxes(picture: &Picture) -> Result<(Rect, Vec<TextBox>), PlotError> 
     Ok((page.page(), page.boxes().to_vec()))
 }
 
-/// What is wrong with the texts of a picture, in words: texts that leave the page, texts that cover each other.
-pub fn text_flaws(picture: &Picture) -> Result<Vec<String>, PlotError> {
-    let (page, boxes) = text_boxes(picture)?;
-    let mut flaws = Vec::new();
+/// What is wrong with the layout of a picture, in words: texts that leave the page, texts that cover each other, insets and
+/// legends that cover curves. Every figure that is published should have none.
+pub fn flaws(picture: &Picture) -> Result<Vec<String>, PlotError> {
+    let document = drawn(picture)?;
+    let (page, boxes) = (document.page(), document.boxes());
+    let mut flaws = document.notes().to_vec();
     for (i, a) in boxes.iter().enumerate() {
         if !page.holds(&a.rect, 0.01) {
             flaws.push(format!("{:?} {:?} leaves the page", a.kind, a.text));
@@ -114,6 +118,11 @@ fn draw_panel(
         frame.rect.grown(-1.2)
     };
     let mut scene = draw::scene(frame, &content.shapes, bounds);
+    if panel.sphere.is_some() {
+        let outline: Vec<_> =
+            (0..=90).map(|i| libm::sincos(PI * f64::from(i) / 45.0)).map(|p| frame.on_page(p)).collect();
+        scene.segments.extend(outline.windows(2).map(|s| (s[0], s[1])));
+    }
     for (number, inset) in panel.insets.iter().enumerate() {
         draw_inset(paper, panel, index, frame, inset, &format!("{id}-inset{}", number + 1), &mut scene)?;
     }
@@ -126,6 +135,7 @@ fn draw_panel(
         Legend::FreeCorner => Some(free_corner(frame, legend::box_size(&entries), &scene)),
     };
     if let Some(rect) = corner {
+        note_cover(&mut paper.borrow_mut().document, &scene, &rect, index, "legend");
         legend::draw_box(&mut paper.borrow_mut(), &entries, &rect, &format!("{id}-legend"));
         scene.taken.push(rect);
     }
@@ -178,6 +188,15 @@ fn draw_content(paper: &SharedPaper, frame: &Frame, content: &Pieces, id: &str) 
     draw::draw(paper, frame, &content.shapes, id, false)?;
     paper.borrow_mut().document.close();
     Ok(())
+}
+
+/// Remembers when something is drawn over curves or points.
+fn note_cover(page: &mut Document, scene: &Scene, rect: &Rect, panel: usize, what: &str) {
+    let free = Scene { bounds: *rect, taken: Vec::new(), ..scene.clone() };
+    let cost = free.cost(&rect.grown(-1.0));
+    if cost > 0.0 {
+        page.note(format!("the {what} of panel {panel} covers curves or points"));
+    }
 }
 
 /// The disc under a sphere's curves, or its outline over them.
@@ -251,13 +270,17 @@ fn draw_inset(
             Rect { left, right: left + size.0, top: bottom - size.1, bottom }
         }
     };
+    // Projected coordinates of a sphere mean nothing to a reader.
+    let axis =
+        |axis: &Axis| if panel.sphere.is_some() { Axis { ticks: Ticks::None, ..axis.clone() } } else { axis.clone() };
+    let (x, y) = (axis(&inset.x), axis(&inset.y));
     // Axes at the inset's own scale; the number of ticks settles in two rounds.
     let mut inner = Frame { rect: outer.grown(-8.0), x: spans.0, y: spans.1 };
     for _ in 0..3 {
         if !(inner.rect.width() >= 10.0 && inner.rect.height() >= 10.0) {
             return Err(PlotError::NoRoom { panel: index, width: inner.rect.width(), height: inner.rect.height() });
         }
-        let m = axis_margins(&inner, &inset.x, &inset.y, true);
+        let m = axis_margins(&inner, &x, &y, true);
         inner.rect = Rect {
             left: outer.left + m.left,
             right: outer.right - m.right.max(3.0),
@@ -265,6 +288,7 @@ fn draw_inset(
             bottom: outer.bottom - m.bottom,
         };
     }
+    note_cover(&mut paper.borrow_mut().document, scene, &outer, index, "inset");
     let marks = inset.marks.as_deref().unwrap_or(&panel.marks);
     let content = pieces::pieces(marks, index, &inner.x, &inner.y, panel.sphere.as_ref())?;
     {
@@ -278,10 +302,6 @@ fn draw_inset(
             page.open_lines(&[("data-role", "inset-source")], grey, 0.4, &[]);
             let (p, q) = whole(&source);
             page.rect(p, q, false, grey, 40);
-            if let Some((from, to)) = leader(&source, &inner.rect) {
-                let ends = [from, to].map(|(x, y)| (hundredths(x), hundredths(y)));
-                page.path(ends, false, false, grey, 40);
-            }
             page.close();
         }
         // Curves of the panel must not shine through the inset's own frame.
@@ -289,9 +309,14 @@ fn draw_inset(
         page.rect(p, q, true, Colour::WHITE, 0);
     }
     draw_content(paper, &inner, &content, id)?;
-    draw_axes(&mut paper.borrow_mut().document, &inner, &inset.x, &inset.y, &format!("{id}-axes"), true);
+    draw_axes(&mut paper.borrow_mut().document, &inner, &x, &y, &format!("{id}-axes"), true);
     draw::draw(paper, &inner, &content.shapes, id, true)?;
     let page = &mut paper.borrow_mut().document;
+    if let Some((from, to)) = inset.source.then(|| leader(&source, &inner.rect, page.boxes())).flatten() {
+        let grey = Colour(90, 90, 90);
+        page.path([from, to].map(|(x, y)| (hundredths(x), hundredths(y))), false, false, grey, 40);
+        scene.segments.push((from, to));
+    }
     if inset.marks.is_some() {
         let mut inside = draw::scene(&inner, &content.shapes, inner.rect.grown(-1.0));
         draw_wishes(page, &inner, &content.wishes, &mut inside);
@@ -301,19 +326,29 @@ fn draw_inset(
     Ok(())
 }
 
-/// The shortest line from a corner of the source to a corner of the inset's frame; none when they overlap.
-fn leader(source: &Rect, inset: &Rect) -> Option<((f64, f64), (f64, f64))> {
+/// The line from a corner of the source to a corner or a quarter of an edge of the inset's frame that is short and crosses neither of them nor a
+/// text; none when they overlap.
+fn leader(source: &Rect, inset: &Rect, texts: &[TextBox]) -> Option<((f64, f64), (f64, f64))> {
     if source.overlaps(inset, 0.0) {
         return None;
     }
     let corners = |r: &Rect| [(r.left, r.top), (r.right, r.top), (r.left, r.bottom), (r.right, r.bottom)];
+    let quarters = |r: &Rect| {
+        let part = |i: u32| (r.left + r.width() * f64::from(i) / 4.0, r.top + r.height() * f64::from(i) / 4.0);
+        (0..=4).map(part).flat_map(|(x, y)| [(x, r.top), (x, r.bottom), (r.left, y), (r.right, y)]).collect::<Vec<_>>()
+    };
     let mut best = None;
     let mut least = f64::INFINITY;
     for from in corners(source) {
-        for to in corners(inset) {
-            let distance = (to.0 - from.0) * (to.0 - from.0) + (to.1 - from.1) * (to.1 - from.1);
-            if distance < least {
-                (least, best) = (distance, Some((from, to)));
+        for to in quarters(inset) {
+            let crosses = |rect: &Rect| place::length_inside(from, to, rect) > 0.0;
+            let distance = ((to.0 - from.0) * (to.0 - from.0) + (to.1 - from.1) * (to.1 - from.1)).sqrt();
+            let texts = texts.iter().filter(|text| crosses(&text.rect.grown(0.7))).count() as f64;
+            let through =
+                f64::from(u8::from(crosses(&source.grown(-0.1)))) + f64::from(u8::from(crosses(&inset.grown(-0.1))));
+            let cost = distance + 1e4 * texts + 1e6 * through;
+            if cost < least {
+                (least, best) = (cost, Some((from, to)));
             }
         }
     }

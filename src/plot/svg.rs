@@ -135,6 +135,7 @@ pub struct Document {
     pens: Vec<Option<Pen>>,
     panel: Option<usize>,
     boxes: Vec<TextBox>,
+    notes: Vec<String>,
 }
 
 /// Points to whole hundredths.
@@ -157,6 +158,45 @@ fn text_of(value: i32) -> String {
     let mut out = String::new();
     number(&mut out, value);
     out
+}
+
+/// The points of a line without those that lie within a hundredth of a point of the line through the others (Ramer, Douglas
+/// and Peucker). All products are whole numbers below 2^53, so `f64` compares them exactly or rounds them alike everywhere.
+fn simplified(points: &[(i32, i32)]) -> Vec<(i32, i32)> {
+    let mut keep = vec![false; points.len()];
+    let mut open = Vec::new();
+    if let Some(last) = points.len().checked_sub(1) {
+        (keep[0], keep[last]) = (true, true);
+        open.push((0, last));
+    }
+    while let Some((from, to)) = open.pop() {
+        let (a, b) = (points[from], points[to]);
+        let (dx, dy) = (f64::from(b.0 - a.0), f64::from(b.1 - a.1));
+        let size = dx * dx + dy * dy;
+        let (mut farthest, mut worst) = (from, 1.0);
+        for (i, p) in points.iter().enumerate().take(to).skip(from + 1) {
+            let (x, y) = (f64::from(p.0 - a.0), f64::from(p.1 - a.1));
+            let forward = x * dx + y * dy;
+            // Squared distance from the segment (not from the line through it: a curve may turn back), times 1.
+            let distance = if forward <= 0.0 {
+                x * x + y * y
+            } else if forward >= size {
+                (x - dx) * (x - dx) + (y - dy) * (y - dy)
+            } else {
+                let cross = x * dy - y * dx;
+                cross * cross / size
+            };
+            if distance > worst {
+                (farthest, worst) = (i, distance);
+            }
+        }
+        if farthest != from {
+            keep[farthest] = true;
+            open.push((from, farthest));
+            open.push((farthest, to));
+        }
+    }
+    points.iter().zip(keep).filter_map(|(&point, keep)| keep.then_some(point)).collect()
 }
 
 /// Writes a text so that XML reads it back; characters that XML forbids become U+FFFD.
@@ -190,6 +230,7 @@ impl Document {
             pens: Vec::new(),
             panel: None,
             boxes: Vec::new(),
+            notes: Vec::new(),
         }
     }
 
@@ -206,6 +247,16 @@ impl Document {
     /// The boxes of all texts written so far.
     pub fn boxes(&self) -> &[TextBox] {
         &self.boxes
+    }
+
+    /// What went wrong with the layout without stopping it.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// Remembers that something went wrong with the layout.
+    pub fn note(&mut self, what: String) {
+        self.notes.push(what);
     }
 
     /// The panel to which the following texts belong.
@@ -299,8 +350,8 @@ impl Document {
         out
     }
 
-    /// A polygonal line, or a filled or closed polygon. Points that fall on the one before are left out; a single point
-    /// draws nothing.
+    /// A polygonal line, or a filled or closed polygon. Of an open line only the points are written that move it by more
+    /// than a hundredth of a point; a single point draws nothing.
     pub fn path(
         &mut self,
         points: impl IntoIterator<Item = (i32, i32)>,
@@ -309,12 +360,14 @@ impl Document {
         colour: Colour,
         width: i32,
     ) {
+        let mut points: Vec<(i32, i32)> = points.into_iter().collect();
+        points.dedup();
+        if !closed {
+            points = simplified(&points);
+        }
         let mut data = String::new();
-        let (mut last, mut count) = (None, 0);
+        let mut count = 0;
         for point in points {
-            if last == Some(point) {
-                continue;
-            }
             // The first command after M is L; further points need no letter.
             data.push_str(match count {
                 0 => "M",
@@ -326,7 +379,6 @@ impl Document {
                 data.push(' ');
             }
             number(&mut data, point.1);
-            last = Some(point);
             count += 1;
         }
         if count < 2 {
@@ -397,7 +449,7 @@ impl Document {
             Anchor::End => self.body.push_str(" text-anchor=\"end\""),
         }
         if style.halo {
-            self.body.push_str(" stroke=\"#ffffff\" stroke-width=\"1.8\" paint-order=\"stroke\"");
+            self.body.push_str(" stroke=\"#ffffff\" stroke-width=\"1.5\" paint-order=\"stroke\"");
         }
         if style.upright {
             let _ = write!(self.body, " transform=\"rotate(-90 {x} {y})\"");
@@ -509,6 +561,22 @@ mod tests {
         assert!(text.contains("<path d=\"M0 0L0.1 0.1\" stroke=\"#e69f00\"/>"));
         assert_eq!(text.matches("<path").count(), 2, "a path of one point draws nothing");
         assert!(text.contains("width=\"89mm\" height=\"50mm\" viewBox=\"0 0 252.28 141.73\""));
+    }
+
+    #[test]
+    fn lines_lose_only_points_that_cannot_be_seen() {
+        // A circle of radius 50 pt with 20 000 points, and a curve that runs back on itself.
+        let circle: Vec<(i32, i32)> = (0..=20_000)
+            .map(|i| 2.0 * std::f64::consts::PI * f64::from(i) / 20_000.0)
+            .map(|t| (hundredths(100.0 + 50.0 * libm::cos(t)), hundredths(100.0 + 50.0 * libm::sin(t))))
+            .collect();
+        let short = simplified(&circle);
+        // The sagitta s²/8R of a chord s is a hundredth of a point for s = 2 pt, half of it for s = √2 pt: 157 or 222 chords go
+        // round, and more because the points themselves are rounded by up to half of it.
+        assert!(short.len() > 150 && short.len() < 600, "{}", short.len());
+        assert_eq!((short.first(), short.last()), (circle.first(), circle.last()));
+        assert_eq!(simplified(&[(0, 0), (500, 0), (1000, 0), (300, 0)]), [(0, 0), (1000, 0), (300, 0)]);
+        assert_eq!(simplified(&[]), []);
     }
 
     #[test]

@@ -126,22 +126,8 @@ fn gcd(a: u64, b: u64) -> u64 {
 
 /// `None` when the range holds fewer than two such multiples.
 fn pi_multiples(low: f64, high: f64, want: usize) -> Option<TickSet> {
-    const STEPS: [(i64, i64); 14] = [
-        (1, 24),
-        (1, 12),
-        (1, 8),
-        (1, 6),
-        (1, 4),
-        (1, 3),
-        (1, 2),
-        (1, 1),
-        (2, 1),
-        (5, 1),
-        (10, 1),
-        (20, 1),
-        (50, 1),
-        (100, 1),
-    ];
+    const STEPS: [(i64, i64); 12] =
+        [(1, 32), (1, 16), (1, 8), (1, 4), (1, 2), (1, 1), (2, 1), (5, 1), (10, 1), (20, 1), (50, 1), (100, 1)];
     let count = |over: i64, under: i64| {
         let range = whole_multiples(low, high, over as f64 * PI / under as f64);
         (range.end() - range.start() + 1).max(0)
