@@ -1,4 +1,3 @@
-//! The article's mathematics: flows, tangents, closed forms. Built on numerics alone.
+//! The article's mathematics: metrics, flows, closed forms. Knows no files and no figures.
 
 pub mod serret_andoyer;
-pub mod spin;

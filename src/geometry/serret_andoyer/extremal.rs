@@ -78,10 +78,9 @@ pub struct Extremal<S: Real = f64> {
     pub(super) gain: S,
     pub(super) nu: S,
     pub(super) complete_k: S,
-    /// Sine and cosine of the amplitude at the start, and the phase `v0` itself.
+    /// Sine and cosine of the amplitude at the start, `am v0`.
     pub(super) sine: S,
     pub(super) cosine: S,
-    pub(super) phase: S,
 }
 
 impl<S: Real> Extremal<S> {
@@ -123,7 +122,8 @@ impl<S: Real> Extremal<S> {
             in_y_error: three * epsilon,
         };
         let energy = S::from_f64(0.5) * (p_x * p_x * metric.z_of_sine(angle.sine) + in_y);
-        if !(energy.is_finite() && energy > S::ZERO) {
+        // Times ε, so that parts of the energy are no denormal numbers either.
+        if !(energy.is_finite() && energy * epsilon > S::ZERO) {
             return Err(StartError::OutOfScale { p_x: p_x.to_f64(), p_y: p_y.to_f64() });
         }
         let direction = if p_y < S::ZERO { -S::ONE } else { S::ONE };
@@ -131,7 +131,7 @@ impl<S: Real> Extremal<S> {
     }
 
     fn from_darboux(metric: &Metric<S>, phi0: S, clairaut: Clairaut<S>, branch: Branch) -> Result<Self, StartError> {
-        let (a, b, c) = (metric.a(), metric.b(), metric.c());
+        let (a, b) = (metric.a(), metric.b());
         let (name, value) = match clairaut {
             Clairaut::PTheta(p) => ("p_theta", p),
             Clairaut::Delta(delta) => ("delta", delta),
@@ -152,7 +152,7 @@ impl<S: Real> Extremal<S> {
         // g = p_φ² = 1 − p_θ² Z, by the difference whose terms are smaller.
         let two = S::from_f64(2.0);
         let phase_error = two * epsilon * (metric.alpha() * phi0).abs() * jacobi.dn;
-        let angle_error = two * square * (angle.sine * cosine).abs() * phase_error;
+        let angle_error = square * (two * (angle.sine * cosine).abs() + phase_error) * phase_error;
         let (mut in_y, mut in_y_error) = if cosine < angle.sine.abs() {
             let own = energies.separatrix_error * energies.to_separatrix.abs();
             (cosine_part - energies.to_separatrix, own + two * epsilon * (cosine_part + energies.to_separatrix.abs()))
@@ -170,10 +170,9 @@ impl<S: Real> Extremal<S> {
             in_y = S::ZERO;
         }
         in_y_error = if in_y > S::ZERO { in_y_error / in_y } else { S::ZERO };
-        // On the equator and beyond rounding of A p_θ² = 1 the two forms of zero must agree.
+        // Exactly X1 ≥ g ≥ 0; rounding of A p_θ² = 1 may have said otherwise.
         let to_equator = energies.to_equator.max(in_y);
         let energies = Energies { in_y, in_y_error, to_equator, ..energies };
-        debug_assert!(c > b);
         let direction = if branch == Branch::Descending { -S::ONE } else { S::ONE };
         Ok(Self::assemble(metric, energies, p_theta, S::from_f64(0.5), angle, direction))
     }
@@ -231,7 +230,6 @@ impl<S: Real> Extremal<S> {
         let length = (numerator * numerator + denominator * denominator).sqrt();
         // On the equator, and at rest on the middle axis, every phase is right: take the turning point.
         let (sine, cosine) = if length > zero { (numerator / length, denominator / length) } else { (S::ONE, S::ZERO) };
-        let phase = incomplete_f_sc(sine, cosine, m, mc);
         Self {
             metric: *metric,
             energies,
@@ -248,7 +246,6 @@ impl<S: Real> Extremal<S> {
             complete_k: complete_k(mc),
             sine,
             cosine,
-            phase,
         }
     }
 
@@ -298,12 +295,12 @@ impl<S: Real> Extremal<S> {
     }
     /// The phase from the equator at the start, `v0 ∈ [−K, K]`, in the direction of growing φ.
     pub fn phase(&self) -> S {
-        self.phase
+        incomplete_f_sc(self.sine, self.cosine, self.m, self.mc)
     }
     /// The article's phase of an oscillating extremal, `tan a = −√(ξ1/(1−ξ1)) cn(Mt + ψ0|m)`: in `[0, 2K]` when ascending, in
     /// `[−2K, 0]` when descending.
     pub fn psi0(&self) -> S {
-        self.direction * (self.complete_k + self.phase)
+        self.direction * (self.complete_k + self.phase())
     }
 }
 

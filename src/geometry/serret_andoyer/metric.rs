@@ -114,5 +114,5 @@ mod tests {
         assert!((metric.parameter() + metric.complementary_parameter() - 1.0).abs() <= f64::EPSILON);
     }
 
-    const HALF_WIDTH: f64 = 1.549_759_982_773_820_8;
+    const HALF_WIDTH: f64 = 1.549_759_982_773_820_945_4;
 }

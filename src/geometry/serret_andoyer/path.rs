@@ -31,6 +31,8 @@ pub struct Position<S: Real = f64> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Path<S: Real = f64> {
     extremal: Extremal<S>,
+    /// The phase at the start, `v0`.
+    phase: S,
     /// `J` over a quarter period and at the start.
     quarter: S,
     at_start: S,
@@ -39,12 +41,13 @@ pub struct Path<S: Real = f64> {
 impl<S: Real> Extremal<S> {
     /// The path, with what all its points share computed once.
     pub fn path(&self) -> Path<S> {
+        let phase = self.phase();
         let (quarter, at_start) = match self.class {
-            ExtremalClass::Separatrix => (S::ZERO, self.separatrix_third_kind(self.phase)),
+            ExtremalClass::Separatrix => (S::ZERO, self.separatrix_third_kind(phase)),
             ExtremalClass::MiddleAxis => (S::ZERO, S::ZERO),
             _ => (self.complete_third_kind(), self.third_kind(self.sine, self.cosine)),
         };
-        Path { extremal: *self, quarter, at_start }
+        Path { extremal: *self, phase, quarter, at_start }
     }
 
     /// The position at time `t`, any real number. For many points of one extremal take [`Extremal::path`].
@@ -97,7 +100,7 @@ impl<S: Real> Path<S> {
             let (y, phi) = (e.angle.y(), e.metric.phi_of_angle(e.angle));
             return Position { x, y, p_y: S::ZERO, theta: x, phi };
         }
-        let v = e.phase + e.direction * e.speed * t;
+        let v = self.phase + e.direction * e.speed * t;
         let jacobi = Jacobi::new(v, e.m, e.mc);
         // The amplitude as half turns and a rest with cosine ≥ 0.
         let (sn, cn) = if jacobi.cn < S::ZERO { (-jacobi.sn, -jacobi.cn) } else { (jacobi.sn, jacobi.cn) };

@@ -47,15 +47,7 @@ pub fn r_f<S: Real>(x: S, y: S, z: S) -> S {
         z = (z + lambda) * quarter;
         mean = (x + y + z) * third;
     }
-    let inverse = S::ONE / mean;
-    let dx = (mean - x) * inverse;
-    let dy = (mean - y) * inverse;
-    let dz = -(dx + dy);
-    let e2 = dx * dy - dz * dz;
-    let e3 = dx * dy * dz;
-    let series = e2 * (c::<S>(-1.0, 10.0) + e2 * (c::<S>(1.0, 24.0) - c::<S>(5.0, 208.0) * e2))
-        + e3 * (c::<S>(1.0, 14.0) + e2 * (c::<S>(-3.0, 44.0) + e2 * c::<S>(1.0, 16.0)) + e3 * c::<S>(3.0, 104.0));
-    (S::ONE + series) / mean.sqrt()
+    r_f_series(x, y, mean)
 }
 
 /// Degenerate first kind, `R_C(x, y) = R_F(x, y, y)`.
@@ -127,6 +119,25 @@ pub fn r_d<S: Real>(x: S, y: S, z: S) -> S {
         z = (z + lambda) * quarter;
         mean = (x + y + three * z) * fifth;
     }
+    three * sum + weight * r_d_series(x, y, mean)
+}
+
+/// The Taylor series of `R_F` about the mean of arguments that are close to each other.
+fn r_f_series<S: Real>(x: S, y: S, mean: S) -> S {
+    let inverse = S::ONE / mean;
+    let dx = (mean - x) * inverse;
+    let dy = (mean - y) * inverse;
+    let dz = -(dx + dy);
+    let e2 = dx * dy - dz * dz;
+    let e3 = dx * dy * dz;
+    let series = e2 * (c::<S>(-1.0, 10.0) + e2 * (c::<S>(1.0, 24.0) - c::<S>(5.0, 208.0) * e2))
+        + e3 * (c::<S>(1.0, 14.0) + e2 * (c::<S>(-3.0, 44.0) + e2 * c::<S>(1.0, 16.0)) + e3 * c::<S>(3.0, 104.0));
+    (S::ONE + series) / mean.sqrt()
+}
+
+/// The Taylor series of `R_D` about the weighted mean of arguments that are close to each other.
+fn r_d_series<S: Real>(x: S, y: S, mean: S) -> S {
+    let three = S::from_f64(3.0);
     let inverse = S::ONE / mean;
     let dx = (mean - x) * inverse;
     let dy = (mean - y) * inverse;
@@ -137,7 +148,41 @@ pub fn r_d<S: Real>(x: S, y: S, z: S) -> S {
     let e4 = three * (xy - zz) * zz;
     let e5 = xy * zz * dz;
     let series = second_and_third_kind_series(e2, e3, e4, e5);
-    three * sum + weight * (S::ONE + series) * inverse / mean.sqrt()
+    (S::ONE + series) * inverse / mean.sqrt()
+}
+
+/// First and second kind of the same arguments, `(R_F(x, y, z), R_D(x, y, z))`, by one run of duplications.
+///
+/// The two share every square root: about 0.6 of the time of both calls. Domain and guarantee: those of [`r_d`].
+pub fn r_f_and_r_d<S: Real>(x: S, y: S, z: S) -> (S, S) {
+    let zero = S::ZERO;
+    if !(x >= zero && y >= zero && x + y > zero && z > zero) {
+        return (not_a_number(), not_a_number());
+    }
+    let quarter = S::from_f64(0.25);
+    let third = c::<S>(1.0, 3.0);
+    let fifth = c::<S>(1.0, 5.0);
+    let three = S::from_f64(3.0);
+    let (mut x, mut y, mut z) = (x, y, z);
+    let mut sum = zero;
+    let mut weight = S::ONE;
+    let mut mean = (x + y + three * z) * fifth;
+    for _ in 0..MAX_DUPLICATIONS {
+        // The spread about the mean of R_D; about that of R_F it is smaller than 5/3 of the range and both are within the series.
+        let spread = (mean - x).abs().max((mean - y).abs()).max((mean - z).abs());
+        if spread <= S::EPSILON_ROOT_8 * mean {
+            break;
+        }
+        let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());
+        let lambda = rx * ry + rz * (rx + ry);
+        sum += weight / (rz * (z + lambda));
+        weight *= quarter;
+        x = (x + lambda) * quarter;
+        y = (y + lambda) * quarter;
+        z = (z + lambda) * quarter;
+        mean = (x + y + three * z) * fifth;
+    }
+    (r_f_series(x, y, (x + y + z) * third), three * sum + weight * r_d_series(x, y, mean))
 }
 
 /// Third kind, `R_J(x, y, z, p) = (3/2) ∫₀^∞ dt / ((t+p) √((t+x)(t+y)(t+z)))`.

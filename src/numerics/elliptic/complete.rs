@@ -10,6 +10,8 @@
 //!
 //! Not known here: `n > 1` (Cauchy principal values), complex parameters. Outside its domain a function returns NaN.
 
+use std::cmp::Ordering;
+
 use super::carlson::{r_d, r_j};
 use crate::numerics::real::Real;
 
@@ -21,9 +23,11 @@ pub(super) const MAX_MEAN_STEPS: usize = 24;
 ///
 /// Domain: `m' ≥ 0` (`m' > 1`, that is `m < 0`, included). Guarantee: 2 ε relative. `m' = 0`: infinity.
 pub fn complete_k<S: Real>(mc: S) -> S {
-    if !(mc > S::ZERO) {
-        // Infinity on the separatrix, NaN below.
-        return if mc == S::ZERO { S::ONE / S::ZERO } else { S::ZERO / S::ZERO };
+    if mc == S::ZERO {
+        return S::from_f64(f64::INFINITY);
+    }
+    if mc.partial_cmp(&S::ZERO) != Some(Ordering::Greater) {
+        return S::from_f64(f64::NAN);
     }
     let half = S::from_f64(0.5);
     let (mut a, mut b) = (S::ONE, mc.sqrt());

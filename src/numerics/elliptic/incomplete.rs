@@ -10,7 +10,7 @@
 //!
 //! Not known here: `n s² > 1` (Cauchy principal values). Outside its domain a function returns NaN.
 
-use super::carlson::{r_d, r_f, r_j};
+use super::carlson::{r_d, r_f, r_f_and_r_d, r_j};
 use super::complete::{complete_d, complete_e, complete_j, complete_k, complete_pi};
 use crate::numerics::real::Real;
 
@@ -20,10 +20,6 @@ const TINY_COSINE: f64 = 1e-100;
 /// `1 − m s²` as a sum of positive terms.
 pub fn delta_squared<S: Real>(s: S, c: S, m: S, mc: S) -> S {
     if m >= S::ZERO { mc + m * c * c } else { S::ONE - m * s * s }
-}
-
-fn with_sign_of<S: Real>(magnitude: S, s: S) -> S {
-    if s < S::ZERO { -magnitude } else { magnitude }
 }
 
 /// First kind of an amplitude in `[−π/2, π/2]`, `F = ∫₀^φ dx / √(1 − m sin²x)`, from `s = sin φ` and `c = cos φ ≥ 0`.
@@ -161,9 +157,8 @@ pub fn incomplete_j<S: Real>(phi: S, n: S, nc: S, m: S, mc: S) -> S {
 /// In Jacobi's functions `∫₀^u sc² du` and `u` with `φ = am u`; `m' ∫ sc² = sc dn − ε(u)` without its cancellation.
 /// Domain: `c > 0`, `m' ≥ 0`. Guarantee: 4 ε relative each.
 pub fn tangent_squared_and_f_sc<S: Real>(s: S, c: S, m: S, mc: S) -> (S, S) {
-    let q = delta_squared(s, c, m, mc);
-    let cc = c * c;
-    (s * s * s * r_d(q, S::ONE, cc) / S::from_f64(3.0), s * r_f(cc, q, S::ONE))
+    let (f, d) = r_f_and_r_d(delta_squared(s, c, m, mc), S::ONE, c * c);
+    (s * s * s * d / S::from_f64(3.0), s * f)
 }
 
 #[cfg(test)]

@@ -35,7 +35,7 @@ fn identities_between_the_kinds() {
         assert!((f - e - m * incomplete_d_sc(s, c, m, mc)).abs() <= 8.0 * f64::EPSILON * f.abs());
         let (q, f2) = tangent_squared_and_f_sc(s, c, m, mc);
         let tangent = s / c * delta_squared(s, c, m, mc).sqrt();
-        assert_eq!(f, f2);
+        assert!((f - f2).abs() <= 4.0 * f64::EPSILON * f.abs());
         assert!((mc * q - (tangent - e)).abs() <= 8.0 * f64::EPSILON * (tangent.abs() + e.abs()), "{phi} {m}");
     }
 }
@@ -47,6 +47,6 @@ fn limits() {
     assert_eq!(incomplete_e_sc(1.0_f64, 0.0, 1.0, 0.0), 1.0);
     assert_eq!(incomplete_f(0.0_f64, 0.5, 0.5), 0.0);
     assert_eq!(incomplete_pi_sc(0.0_f64, 1.0, 0.5, 0.5, 0.5, 0.5), 0.0);
-    let a = reduce_amplitude(with_sign_of(std::f64::consts::FRAC_PI_2, -1.0));
+    let a = reduce_amplitude(-std::f64::consts::FRAC_PI_2);
     assert!(a.cosine >= 0.0 && a.half_turns.abs() <= 1.0);
 }

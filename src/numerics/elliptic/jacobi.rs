@@ -35,7 +35,7 @@ impl<S: Real> Jacobi<S> {
             return Self::hyperbolic(u);
         }
         if !(mc > S::ZERO && u.is_finite()) {
-            let nan = S::ZERO / S::ZERO;
+            let nan = S::from_f64(f64::NAN);
             return Self { sn: nan, cn: nan, dn: nan, am: nan };
         }
         let half = S::from_f64(0.5);
