@@ -1,5 +1,9 @@
 //! polhode
 
+pub mod check;
+pub mod contract;
+pub mod effects;
+pub mod experiments;
 pub mod geometry;
 pub mod numerics;
 pub mod plot;

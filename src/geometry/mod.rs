@@ -1,3 +1,4 @@
-//! The article's mathematics: metrics, flows, closed forms. Knows no files and no figures.
+//! The article's mathematics: flows, tangents, closed forms. Built on numerics alone.
 
 pub mod serret_andoyer;
+pub mod spin;

@@ -7,6 +7,7 @@ pub mod conjugate;
 pub mod curvature;
 pub mod darboux;
 pub mod extremal;
+pub mod flow;
 pub mod metric;
 pub mod path;
 pub mod period;
