@@ -158,10 +158,11 @@ impl Session {
 fn unscanned(workspace: &Workspace) -> Vec<String> {
     let mut folders = vec!["measured".to_owned(), "article".to_owned(), Accuracy::Draft.to_string()];
     for entry in std::fs::read_dir(&workspace.out).into_iter().flatten().flatten() {
-        if let Ok(name) = entry.file_name().into_string() {
-            if name.parse::<Accuracy>().is_ok() && !folders.contains(&name) {
-                folders.push(name);
-            }
+        if let Ok(name) = entry.file_name().into_string()
+            && name.parse::<Accuracy>().is_ok()
+            && !folders.contains(&name)
+        {
+            folders.push(name);
         }
     }
     folders

@@ -139,10 +139,9 @@ impl Workspace {
         let mut configs = Vec::new();
         for entry in std::fs::read_dir(&self.experiments).map_err(unreadable)? {
             let path = entry.map_err(unreadable)?.path();
-            if path.extension().is_some_and(|ending| ending == "toml") {
-                if let Some(id) = path.file_stem().and_then(|stem| stem.to_str()) {
-                    configs.push((id.to_owned(), path.clone()));
-                }
+            let is_config = path.extension().is_some_and(|ending| ending == "toml");
+            if let Some(id) = path.file_stem().and_then(|stem| stem.to_str()).filter(|_| is_config) {
+                configs.push((id.to_owned(), path.clone()));
             }
         }
         configs.sort_by_key(|(id, _)| sort_key(id));

@@ -8,5 +8,6 @@ pub mod product;
 pub mod quantities;
 pub mod scene;
 pub mod serret_andoyer;
+pub mod spin;
 pub mod switch_points;
 pub mod switch_points_by_integration;

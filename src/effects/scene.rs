@@ -5,6 +5,7 @@
 use crate::contract::accuracy::Accuracy;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::sweep::Sweep;
+use crate::effects::spin::momenta::Momenta;
 use crate::geometry::serret_andoyer::Metric;
 use serde::{Deserialize, Serialize};
 
@@ -292,6 +293,25 @@ pub struct SpinParameters {
 pub struct EquatorStart {
     /// `p_θ(0)`, any finite number.
     pub p_theta: f64,
+}
+
+/// `start = { p_theta = { from = 1e-9, to = 1e4, step = 0.1 } }`: all starts of a branch, θ(0) = 0, φ(0) = π/2, p_φ(0) = −2, H = 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BranchStart {
+    /// The momenta `p_θ(0) ≥ 0`; inside a node they are its rows.
+    pub p_theta: Momenta,
+}
+
+impl Validate for BranchStart {
+    fn validate(&self) -> Result<(), Invalid> {
+        let Momenta { from, to, step } = self.p_theta;
+        let key = |name: &str| format!("scene.start.p_theta.{name}");
+        Invalid::number((1e-290..=1.0).contains(&from), key("from"), from, "a number from 1e-290 to 1")?;
+        let accepted = format!("a number from 10 to 1e12, above from = {from:?}");
+        Invalid::number((10.0..=1e12).contains(&to), key("to"), to, accepted)?;
+        Invalid::number((1e-3..=0.5).contains(&step), key("step"), step, "a number from 0.001 to 0.5 (radians)")
+    }
 }
 
 impl Validate for SpinMetric {

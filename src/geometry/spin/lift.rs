@@ -25,6 +25,9 @@ use crate::numerics::taylor::flow::{
 use crate::numerics::taylor::integrator::{IntegrationError, Settings, integrate};
 use crate::numerics::taylor::step::{Jet, absolute_sum};
 
+/// The smallest scale of `(h1, h2)`: below it they don't matter to anything up to times of `70/√(1/k² − 1)`.
+const SMALLEST_SCALE: f64 = 1e-30;
+
 /// The lifted flow. State: `[r1, r2, r3, h1, h2, h3]`.
 #[derive(Clone, Copy, Debug)]
 pub struct SpinLift<S> {
@@ -67,11 +70,14 @@ impl<S: Algebra> Flow<S> for SpinLift<S> {
     #[inline(always)]
     fn scales(&self, state: &[S; 6]) -> [S; 6] {
         // For a large momentum everything happens within t ~ 1/|h|: r moves by 1/|h|, h1 and h3 stay of order 1. What
-        // counts is the error relative to these, not to |r| = 1 and to |h|.
+        // counts is the error relative to these, not to |r| = 1 and to |h|. Near the meridian h1 and h2, which obey a linear
+        // system with the factor h3, are of the size of p_θ and grow exponentially: an error of the size of ε|h| would be
+        // one of ε/p_θ. So they are measured by their own size.
         let [_, _, _, h1, _, h3] = *state;
         let (h, turning) = (largest(&state[3..]), largest(&[h1, h3]));
+        let across = largest(&state[3..5]).larger(S::number(SMALLEST_SCALE));
         let moved = S::number(1.0) / h.larger(S::number(1.0));
-        [moved, moved, moved, turning, h, turning]
+        [moved, moved, moved, -((-across).larger(-turning)), across, turning]
     }
 }
 
