@@ -545,7 +545,6 @@ fn no_conjugate_point() {
 /// The article's example (both ways to say it) and 14 random bodies and momenta that are in no other list: t1 ≤ t2, with
 /// multiplicity; relative error at most 2e-13 where the condition number of t1 is at most 100.
 #[test]
-#[ignore = "`point rotation-group` is not there yet"]
 fn rotation_group() {
     let mut given: Vec<(Row, f64, f64)> = Vec::new();
     for point in list(&oracle("rotation_group_conjugate_times.json")) {

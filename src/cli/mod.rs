@@ -14,5 +14,6 @@ pub mod point;
 pub mod progress;
 pub mod session;
 pub mod show;
+pub mod version;
 pub mod why;
 pub mod workspace;

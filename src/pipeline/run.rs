@@ -58,7 +58,9 @@ pub fn run(graph: &Graph, selection: &Selection, store: &Store, options: &Option
     events.planned(selection.nodes.len(), selection.exports.len());
     let session = begin(store, events);
     let view = heads::view(&options.root, &options.out);
-    let (heads, damage) = read_heads(graph, selection, store, &view);
+    let (heads, mut damage) = read_heads(graph, selection, store, &view);
+    // In a store that can't be used nothing will be written anew.
+    damage.retain(|_| session.is_ok());
     damage.iter().for_each(|damage| events.damaged(damage));
     let mut scheduler = Scheduler::new(graph, selection, store, options, &heads, events);
     scheduler.damage = damage;
