@@ -37,8 +37,25 @@ fn main() -> Result<(), Box<dyn Error>> {
         writeln!(table, "FileCode {{ path: {path:?}, digest: {digest:?}, crates: &{named:?}, paths: &{paths:?} }},")?;
     }
     writeln!(table, "];")?;
-    fs::write(Path::new(&env::var("OUT_DIR")?).join("fingerprints.rs"), table)?;
+    let out = PathBuf::from(env::var("OUT_DIR")?);
+    fs::write(out.join("fingerprints.rs"), table)?;
+    fs::write(out.join("configs.rs"), configs(&root.join("experiments"))?)?;
     Ok(())
+}
+
+/// The experiment configs, for `polhode init`. Cargo is not asked to watch them: an edited config must not rebuild the
+/// program. They are those of the last build that something else asked for.
+fn configs(folder: &Path) -> Result<String, Box<dyn Error>> {
+    let mut configs = BTreeMap::new();
+    for entry in fs::read_dir(folder)? {
+        let path = entry?.path();
+        if path.extension().is_some_and(|ending| ending == "toml") {
+            let name = path.file_name().and_then(|name| name.to_str()).ok_or("a config's name is no Unicode")?;
+            configs.insert(name.to_owned(), fs::read_to_string(&path)?);
+        }
+    }
+    let entries: Vec<String> = configs.iter().map(|(name, text)| format!("({name:?}, {text:?}),\n")).collect();
+    Ok(format!("pub const CONFIGS: &[(&str, &str)] = &[\n{}];\n", entries.concat()))
 }
 
 fn compiler() -> Result<String, Box<dyn Error>> {

@@ -688,7 +688,9 @@ fn heads_remember_addresses_that_are_gone() {
     let live: Vec<(&str, bool)> = heads.nodes.iter().map(|(address, head)| (address.as_str(), head.live)).collect();
     assert_eq!(live, [("toy/aside", false), ("toy/middle", true), ("toy/source", true), ("toy/top", true)]);
     assert_eq!(heads.exports.keys().collect::<Vec<_>>(), ["toy.txt"]);
-    assert_eq!(bench.store().runs(9).len(), 1, "the second run did nothing worth a note");
+    let runs = bench.store().runs(9);
+    assert_eq!(runs.len(), 2, "the second run only dropped an address; gc --keep must know which key it had");
+    assert_eq!((runs[0].ran.len(), runs[0].superseded.as_slice()), (0, [heads.nodes["toy/aside"].key].as_slice()));
 }
 
 /// Single calls to the file system, and all calls from one on, made to fail in turn: the run says so or is right,

@@ -16,7 +16,9 @@ use std::path::PathBuf;
   polhode check                         goldens, references and claims: the verdict table
   polhode point spin k=0.8 p_theta=1    one first conjugate point
   polhode point serret-andoyer A=1.5 B=2 C=2.8 phi0=0 delta=1e-3 branch=ascending
-  polhode show fig7/conjugate-locus/k=0.8 --csv"
+  polhode show fig7/conjugate-locus/k=0.8 --csv
+  polhode verify --sample 10            re-hash the store and compute ten nodes again
+  polhode init my-paper                 a folder to work in, outside the repository"
 )]
 pub struct Arguments {
     /// What to do.
@@ -43,6 +45,16 @@ pub enum Verb {
     Point(PointArguments),
     /// Write a new experiment: a module and its config, ready to run
     New(NewArguments),
+    /// Make a folder to work in: the article's configs, ready to edit and run
+    Init(InitArguments),
+    /// Re-hash the whole store, and compute a sample of it again
+    Verify(VerifyArguments),
+    /// Drop from the store what the last runs don't need
+    Gc(GcArguments),
+    /// Past runs: when, what ran, how long it took
+    Log(LogArguments),
+    /// Print the completions of a shell
+    Completions(CompletionsArguments),
 }
 
 /// Where things lie, and how to run: the options that verbs share.
@@ -86,6 +98,7 @@ pub struct RunArguments {
   polhode figures                 everything
   polhode figures fig7 fig8       two experiments
   polhode figures --dry-run       what would run, and why; nothing is written
+  polhode figures fig7 --watch    draw again whenever a config is saved; Ctrl-C ends
   polhode figures --out /tmp/f --store /tmp/s --jobs 1")]
 pub struct FiguresArguments {
     /// Experiments (fig7), outputs (figures/fig7.svg) or nodes (fig7/conjugate-locus/k=0.8); all where none is given
@@ -103,6 +116,9 @@ pub struct FiguresArguments {
     /// Say what would run and why; write nothing; exit code 6 where an output would change
     #[arg(long)]
     pub dry_run: bool,
+    /// Run again whenever a config is saved, until Ctrl-C
+    #[arg(long, conflicts_with_all = ["dry_run", "force", "json"])]
+    pub watch: bool,
 }
 
 /// Options of `check`.
@@ -260,4 +276,103 @@ pub struct NewArguments {
     /// Folder of the experiment configs [default: experiments/ of the nearest ancestor that has one]
     #[arg(long, value_name = "DIR")]
     pub experiments: Option<PathBuf>,
+}
+
+/// Options of `init`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode init my-paper && cd my-paper && polhode figures")]
+pub struct InitArguments {
+    /// The folder: made where it is missing; files in it are never written over
+    #[arg(value_name = "DIR")]
+    pub folder: PathBuf,
+}
+
+/// Options of `verify`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode verify                  re-hash the store, compute 8 stored nodes again, compare bits
+  polhode verify --sample 0       re-hash only
+  polhode verify --all --json     every stored node
+  polhode verify fig7 --seed 2    another sample, of one experiment's nodes
+
+Exit code: 1 where a node comes out otherwise than it is stored (a defect), 7 where the store is damaged
+(the next run that needs the damaged part repairs it).")]
+pub struct VerifyArguments {
+    /// Experiments, outputs or nodes that the sample is taken from; all where none is given
+    #[arg(value_name = "TARGET")]
+    pub targets: Vec<String>,
+    /// Where things lie.
+    #[command(flatten)]
+    pub place: PlaceArguments,
+    /// Stored nodes to compute again
+    #[arg(long, value_name = "N", default_value_t = 8)]
+    pub sample: usize,
+    /// Compute every stored node again
+    #[arg(long, conflicts_with = "sample")]
+    pub all: bool,
+    /// Another number takes another sample
+    #[arg(long, value_name = "NUMBER", default_value_t = 0)]
+    pub seed: u64,
+    /// Threads [default: the number of cores]
+    #[arg(long, short, value_name = "N")]
+    pub jobs: Option<std::num::NonZeroUsize>,
+    /// Plain output: no progress line even on a terminal
+    #[arg(long)]
+    pub no_progress: bool,
+    /// Machine-readable output on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `gc`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode gc --dry-run    what would go
+  polhode gc              keep what the present configs and each output folder's last run need
+  polhode gc --keep 5     also what the four runs before the last had left")]
+pub struct GcArguments {
+    /// Where things lie.
+    #[command(flatten)]
+    pub place: PlaceArguments,
+    /// Keep what this many last runs left
+    #[arg(long, value_name = "RUNS", default_value = "1")]
+    pub keep: std::num::NonZeroUsize,
+    /// Forget what was shown in other output folders and at other accuracies
+    #[arg(long)]
+    pub here: bool,
+    /// Say what would go; drop nothing
+    #[arg(long)]
+    pub dry_run: bool,
+    /// Machine-readable output on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `log`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode log
+  polhode log --last 3 --json")]
+pub struct LogArguments {
+    /// Runs at most, the newest first
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    pub last: usize,
+    /// Where things lie.
+    #[command(flatten)]
+    pub place: PlaceArguments,
+    /// Machine-readable output on stdout
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `completions`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode completions bash > ~/.local/share/bash-completion/completions/polhode
+  polhode completions fish > ~/.config/fish/completions/polhode.fish")]
+pub struct CompletionsArguments {
+    /// The shell
+    #[arg(value_enum)]
+    pub shell: clap_complete::Shell,
 }

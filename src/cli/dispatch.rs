@@ -3,7 +3,9 @@
 use crate::cli::arguments::{Arguments, Verb};
 use crate::cli::console::{self, ConsoleError};
 use crate::cli::exit::Exit;
-use crate::cli::{check, figures, graph, list, new, point, show, version, why};
+use crate::cli::{
+    check, completions, figures, gc, graph, init, list, log, new, point, show, verify, version, watch, why,
+};
 use clap::Parser;
 use std::sync::Mutex;
 
@@ -48,6 +50,7 @@ pub fn main() -> Exit {
 
 fn verb(verb: &Verb) -> Result<Exit, ConsoleError> {
     match verb {
+        Verb::Figures(arguments) if arguments.watch => watch::run(arguments),
         Verb::Figures(arguments) => figures::run(arguments),
         Verb::Check(arguments) => check::run(arguments),
         Verb::Why(arguments) => why::run(arguments),
@@ -56,5 +59,10 @@ fn verb(verb: &Verb) -> Result<Exit, ConsoleError> {
         Verb::Show(arguments) => show::run(arguments),
         Verb::Point(arguments) => point::run(arguments),
         Verb::New(arguments) => new::run(arguments),
+        Verb::Init(arguments) => init::run(arguments),
+        Verb::Verify(arguments) => verify::run(arguments),
+        Verb::Gc(arguments) => gc::run(arguments),
+        Verb::Log(arguments) => log::run(arguments),
+        Verb::Completions(arguments) => completions::run(arguments),
     }
 }

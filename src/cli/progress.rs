@@ -88,6 +88,10 @@ impl Events for Shown {
         self.say(&format!("{} {damage}", console::paint("repair:", "33")));
     }
 
+    fn noted(&mut self, note: &str) {
+        self.say(&format!("note: {note}"));
+    }
+
     fn unknown_file(&mut self, path: &str) {
         self.say(&format!("note: {path} in the output folder is made by no experiment; it is left alone"));
     }

@@ -18,7 +18,7 @@ use crate::pipeline::store::Store;
 use std::path::PathBuf;
 
 /// The version of the store's format, which is the name of its folder.
-const STORE_FORMAT: &str = "v1";
+pub const STORE_FORMAT: &str = crate::pipeline::store::FORMAT;
 
 /// Everything planned, nothing run.
 pub struct Session {

@@ -153,6 +153,14 @@ impl Manifest {
         self.lines.iter().find(|line| line.part == part && line.path == path).map(|line| &line.leaf)
     }
 
+    /// The digest of the code listing that the kind depended on.
+    pub fn code(&self) -> Option<Digest> {
+        match self.get(Part::Code, "listing") {
+            Some(Leaf::Digest(digest)) => Some(*digest),
+            _ => None,
+        }
+    }
+
     /// The leaves that differ: `(part, path, old, new)`; empty exactly when the keys agree.
     pub fn changes(&self, new: &Self) -> Vec<Change> {
         let (before, after) = (self.by_place(), new.by_place());

@@ -205,6 +205,16 @@ impl Disk {
         self.call(Operation::Remove, path, || fs::remove_file(path))
     }
 
+    /// The size of a file, in bytes.
+    pub fn size(&self, path: &Path) -> Done<u64> {
+        self.call(Operation::Read, path, || Ok(fs::metadata(path)?.len()))
+    }
+
+    /// Gives a file or folder another name on the same file system.
+    pub fn rename(&self, from: &Path, to: &Path) -> Done<()> {
+        self.call(Operation::Rename, to, || fs::rename(from, to))
+    }
+
     /// Waits until the entries of a folder are on the disk. Does nothing where folders can't be opened.
     pub fn sync_folder(&self, path: &Path) -> Done<()> {
         self.call(Operation::SyncFolder, path, || if cfg!(unix) { File::open(path)?.sync_all() } else { Ok(()) })

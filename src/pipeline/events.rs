@@ -40,6 +40,8 @@ pub trait Events {
     fn waiting(&mut self, _address: Option<&Address>, _holder: &str) {}
     /// Something was damaged or missing; the damage says what was done about it.
     fn damaged(&mut self, _damage: &Damage) {}
+    /// Something worth knowing about the store, such as one of another format that was set aside.
+    fn noted(&mut self, _note: &str) {}
     /// An output was looked at and, where needed, written.
     fn output(&mut self, _export: &ExportReport) {}
     /// A file in the output folder that no experiment makes.

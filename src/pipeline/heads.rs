@@ -69,6 +69,22 @@ impl Store {
         parsed.map_or((Heads::default(), Some(Fault::Altered)), |heads| (heads, None))
     }
 
+    /// What is remembered of all experiments of all views, as (view, experiment, heads or what is wrong with the file).
+    ///
+    /// # Errors
+    /// Folders that can't be listed.
+    pub(super) fn all_heads(&self) -> Result<Vec<(String, String, Result<Heads, Fault>)>, StoreError> {
+        let folder = self.folder().join("heads");
+        let mut found = Vec::new();
+        for view in self.list_if_there(&folder)?.into_iter().filter(|entry| entry.is_folder) {
+            for file in self.list_if_there(&folder.join(&view.name))?.into_iter().filter(|entry| !entry.is_folder) {
+                let (heads, fault) = self.heads(&view.name, &file.name);
+                found.push((view.name.clone(), file.name, fault.map_or(Ok(heads), Err)));
+            }
+        }
+        Ok(found)
+    }
+
     /// Changes what is remembered of an experiment, under its lock, against what stands there now; writes only when
     /// that makes a difference.
     ///

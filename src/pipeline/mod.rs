@@ -18,6 +18,8 @@
 //! - [`why`](why::why) is the forecast of what stands behind one target, with the origin of its present bytes.
 //! - [`stored`](stored::stored) gives a stored artifact by address, for `show` and `check`;
 //!   [`Store::artifact`](store::Store::artifact) by key, for old values ([`NodeReport::previous`](report::NodeReport)).
+//! - [`verify`](verify::verify) reads the whole store and computes a sample of it again; [`gc`](gc::gc) drops what no last
+//!   run needs.
 //! - [`Events`](events::Events) hears of everything as it happens, on the caller's thread.
 //!
 //! Nodes run on threads of their own, at most `jobs` at once; what they do in parallel inside goes to rayon's global
@@ -25,12 +27,12 @@
 //!
 //! Map: `graph` joins plans, `select` finds what targets need; `schedule` decides what runs (its states are listed there;
 //! `examine` and `start` are its two questions), `work` does it; `record`,
-//! `store`, `heads`, `runs` are the files of the store, `disk` all calls to the file system (with a place for fault
+//! `store`, `format`, `heads`, `runs` are the files of the store, `disk` all calls to the file system (with a place for fault
 //! injection), `exports` the output folder; `forecast`, `reason`, `locate`, `why` explain; `render` draws the graph.
 //!
 //! Invariants: nothing is believed that was not hashed in this run. Objects are durable before the record that names
 //! them. A lock is taken before its node starts, and never waited for on a pool's thread. No time, host or path enters a
-//! record. Nothing here deletes a file that it did not make.
+//! record. Nothing here deletes a file that it did not make; only `gc` deletes results, and never a lock file.
 //!
 //! [`Plan`]: crate::contract::plan::Plan
 
@@ -39,6 +41,8 @@ pub mod events;
 mod examine;
 mod exports;
 pub mod forecast;
+pub mod format;
+pub mod gc;
 pub mod graph;
 pub mod heads;
 mod locate;
@@ -54,5 +58,6 @@ pub mod select;
 mod start;
 pub mod store;
 pub mod stored;
+pub mod verify;
 pub mod why;
 mod work;

@@ -136,6 +136,8 @@ pub enum Subject {
     Listing,
     /// The memory of an experiment's last keys.
     Heads,
+    /// The marker of the store's format.
+    Format,
     /// A file in the output folder.
     Output,
 }
@@ -176,6 +178,7 @@ impl std::fmt::Display for Damage {
             Subject::Object => "stored object",
             Subject::Listing => "stored code listing",
             Subject::Heads => "memory of last keys",
+            Subject::Format => "marker of the store's format",
             Subject::Output => "output",
         };
         let repair = match self.repair {
@@ -215,6 +218,8 @@ pub struct Report {
     pub store_errors: Vec<StoreError>,
     /// What could not be remembered (heads, the log of runs), though all results are right.
     pub warnings: Vec<String>,
+    /// What is worth knowing about the store: other formats beside it, one that was set aside.
+    pub notes: Vec<String>,
     /// How long the run took.
     #[serde(skip)]
     pub elapsed: Duration,

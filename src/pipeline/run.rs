@@ -2,6 +2,7 @@
 
 use super::events::Events;
 use super::exports;
+use super::format::Notice;
 use super::graph::Graph;
 use super::heads::{self, Head, Heads};
 use super::report::{Damage, ExportReport, ExportStatus, NodeReport, Repair, Report, Status, Subject};
@@ -50,7 +51,7 @@ impl Options {
 }
 
 /// How long a run waits before it tries a held store again.
-const STORE_POLL: Duration = Duration::from_millis(10);
+pub(super) const STORE_POLL: Duration = Duration::from_millis(10);
 
 /// Runs what is selected. Never panics on what it finds on the disk; everything that went wrong is in the report.
 pub fn run(graph: &Graph, selection: &Selection, store: &Store, options: &Options, events: &mut dyn Events) -> Report {
@@ -61,6 +62,22 @@ pub fn run(graph: &Graph, selection: &Selection, store: &Store, options: &Option
     let (heads, mut damage) = read_heads(graph, selection, store, &view);
     // In a store that can't be used nothing will be written anew.
     damage.retain(|_| session.is_ok());
+    let mut notes = Vec::new();
+    for notice in session.iter().flat_map(|session| &session.notices) {
+        match notice {
+            Notice::Damaged(marker, fault) => damage.push(Damage {
+                subject: Subject::Format,
+                path: marker.display().to_string(),
+                address: None,
+                fault: fault.clone(),
+                repair: Repair::Rewritten,
+            }),
+            notice => {
+                notes.push(notice.to_string());
+                events.noted(&notice.to_string());
+            }
+        }
+    }
     damage.iter().for_each(|damage| events.damaged(damage));
     let mut scheduler = Scheduler::new(graph, selection, store, options, &heads, events);
     scheduler.damage = damage;
@@ -70,13 +87,15 @@ pub fn run(graph: &Graph, selection: &Selection, store: &Store, options: &Option
     }
     let listings = std::mem::take(&mut scheduler.listings);
     let mut report = assemble(graph, selection, &heads, scheduler);
+    report.notes = notes;
     report.elapsed = clock.elapsed();
     let Ok(session) = session else { return report };
     sync_folders(&mut report, store, options);
     keep_listings(graph, selection, store, &listings, &mut report, events);
     remember_heads(graph, selection, store, &view, &heads, &mut report);
     report.elapsed = clock.elapsed();
-    if let Some(past) = PastRun::of(&report, &selection.targets, began, report.elapsed)
+    let superseded = superseded(graph, selection, &heads, &report);
+    if let Some(past) = PastRun::of(&report, &selection.targets, superseded, began, report.elapsed)
         && let Err(error) = store.remember(&past)
     {
         report.warnings.push(format!("this run is not in the log: {error}"));
@@ -150,6 +169,7 @@ fn assemble(graph: &Graph, selection: &Selection, heads: &[Heads], scheduler: Sc
         unknown_files: Vec::new(),
         store_errors: scheduler.store_errors,
         warnings: Vec::new(),
+        notes: Vec::new(),
         elapsed: Duration::ZERO,
     }
 }
@@ -238,6 +258,25 @@ fn remember_heads(
             report.warnings.push(format!("the keys of {} are not remembered: {error}", graph.experiments[plan].0));
         }
     }
+}
+
+/// The keys that were the last ones of their addresses before this run and no longer are: what `gc --keep` needs to know
+/// about past runs.
+fn superseded(graph: &Graph, selection: &Selection, before: &[Heads], report: &Report) -> Vec<Digest> {
+    let is_settled = |node: &NodeReport| matches!(node.status, Status::Cached | Status::Ran | Status::SameAs(_));
+    let now: BTreeMap<String, Option<Digest>> =
+        report.nodes.iter().filter(|node| is_settled(node)).map(|node| (node.address.to_string(), node.key)).collect();
+    let mut gone = BTreeSet::new();
+    for plan in plans(graph, selection) {
+        let (planned, _) = planned(graph, plan);
+        for (address, head) in before[plan].nodes.iter().filter(|(_, head)| head.live) {
+            let is_other = now.get(address).is_some_and(|key| *key != Some(head.key));
+            if is_other || !planned.contains(address) {
+                gone.insert(head.key);
+            }
+        }
+    }
+    gone.into_iter().collect()
 }
 
 /// All addresses and paths of a plan, selected or not.

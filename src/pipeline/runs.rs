@@ -1,7 +1,8 @@
-//! Past runs: when, what ran, how long it took. For `log` and people; nothing else reads them.
+//! Past runs: when, what ran, how long it took. For `log` and people, and for `gc --keep`.
 
 use super::report::{Report, Status};
 use super::store::{Store, StoreError};
+use crate::contract::digest::Digest;
 use serde::{Deserialize, Serialize};
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -35,11 +36,20 @@ pub struct PastRun {
     pub written: Vec<String>,
     /// What was damaged, and what was done about it.
     pub damage: Vec<String>,
+    /// The keys that were last ones before this run and are no more: what the run before it had left.
+    #[serde(default)]
+    pub superseded: Vec<Digest>,
 }
 
 impl PastRun {
     /// What is to be remembered of a run; nothing when it changed nothing.
-    pub(super) fn of(report: &Report, targets: &[String], began: SystemTime, elapsed: Duration) -> Option<Self> {
+    pub(super) fn of(
+        report: &Report,
+        targets: &[String],
+        superseded: Vec<Digest>,
+        began: SystemTime,
+        elapsed: Duration,
+    ) -> Option<Self> {
         let ran = report.nodes.iter().filter(|node| node.status == Status::Ran).map(|node| PastNode {
             address: node.address.to_string(),
             key: node.key.map(|key| key.to_string()).unwrap_or_default(),
@@ -54,8 +64,10 @@ impl PastRun {
             failed: report.failures().map(|(address, why)| (address.to_string(), why.to_string())).collect(),
             written: report.written().map(|export| export.path.clone()).collect(),
             damage: report.damage.iter().map(ToString::to_string).collect(),
+            superseded,
         };
-        let is_idle = run.ran.is_empty() && run.failed.is_empty() && run.written.is_empty() && run.damage.is_empty();
+        let is_same = run.ran.is_empty() && run.written.is_empty() && run.superseded.is_empty();
+        let is_idle = is_same && run.failed.is_empty() && run.damage.is_empty();
         (!is_idle).then_some(run)
     }
 }

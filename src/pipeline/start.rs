@@ -14,7 +14,7 @@ use std::thread::{Builder, Scope};
 use std::time::Instant;
 
 /// Stack of a node's thread: the default of 2 MiB is little for deep recursion in an unoptimised dependency.
-const STACK: usize = 8 << 20;
+pub(super) const STACK: usize = 8 << 20;
 
 impl<'a> Scheduler<'a> {
     /// Starts what can be started. True when a queued node waits for a lock that another run holds.

@@ -7,12 +7,15 @@
 //!                  locks/KEY          held while that key is computed; `store` is shared by runs, exclusive for gc
 //!                  runs/TIME-PID.json past runs, durations included (see `runs`)
 //!                  tmp/               files being written; leftovers of killed runs are removed when no run is alive
+//!                  format             which format this is (see `format`)
+//!                  aside/             what was found here in another format
 //! ```
 //!
 //! Nothing is believed unread: [`Store::examine`] hashes the record and every object that it names. Objects reach the
 //! disk before the record that names them. The folder's version is its format: another format is another folder.
 
-use super::disk::{Disk, DiskError};
+use super::disk::{Disk, DiskError, Entry};
+use super::format::{Marker, Notice};
 use super::record::{Malformed, Output, Record};
 use crate::contract::code::CodeListing;
 use crate::contract::digest::Digest;
@@ -36,6 +39,18 @@ pub enum StoreError {
     Rotted {
         /// Its digest.
         object: Digest,
+    },
+    /// The store is of another format: a run sets it aside, who only looks refuses it.
+    #[error(
+        "the store in {} is of format {version}, which this program does not read; polhode figures sets it aside and \
+         begins a new one",
+        folder.display()
+    )]
+    OtherFormat {
+        /// The store.
+        folder: PathBuf,
+        /// Its version.
+        version: u32,
     },
     /// A text could not be written; a defect of the program.
     #[error("can't write a record: {0}")]
@@ -109,6 +124,8 @@ pub struct Store {
 #[derive(Debug)]
 pub struct Session {
     lock: File,
+    /// What was found out about the store's format.
+    pub notices: Vec<Notice>,
 }
 
 /// What became of an object that was put into the store.
@@ -276,10 +293,7 @@ impl Store {
     /// A store whose records can't be listed; damaged records are passed over.
     pub fn made_by(&self, object: Digest) -> Result<Vec<(Digest, String)>, StoreError> {
         let mut found = Vec::new();
-        let entries = match self.disk.list(&self.folder.join("records")) {
-            Err(error) if error.is_missing() => return Ok(found),
-            entries => entries?,
-        };
+        let entries = self.list_if_there(&self.folder.join("records"))?;
         for key in entries.iter().filter_map(|entry| entry.name.parse::<Digest>().ok()) {
             if let Ok(record) = self.record(key) {
                 let outputs = record.outputs.into_iter().filter(|output| output.object == object);
@@ -306,15 +320,76 @@ impl Store {
             leftovers.iter().for_each(|leftover| drop(self.disk.remove(leftover)));
             drop(lock.unlock());
         }
+        let mut notices = Vec::new();
+        loop {
+            while !self.disk.try_lock_shared(&lock, &path)? {
+                wait();
+            }
+            match self.marker() {
+                Marker::Ours => return Ok(Session { lock, notices }),
+                Marker::Other(_) => {
+                    // Alone, and looked at again: another run may have done it meanwhile.
+                    drop(lock.unlock());
+                    while !self.disk.try_lock(&lock, &path)? {
+                        wait();
+                    }
+                    if let Marker::Other(version) = self.marker() {
+                        notices.push(self.set_aside(version)?);
+                    }
+                    notices.extend(self.mark(&self.marker())?);
+                    drop(lock.unlock());
+                }
+                lacking => notices.extend(self.mark(&lacking)?),
+            }
+        }
+    }
+
+    /// Begins to look at the store without writing: `gc` keeps away meanwhile. None where there is no store.
+    ///
+    /// # Errors
+    /// The disk's; a store of another format.
+    pub fn begin_looking(&self, wait: &mut dyn FnMut()) -> Result<Option<Session>, StoreError> {
+        let path = self.lock_path("store");
+        let lock = match self.disk.open_existing_lock(&path) {
+            Err(error) if error.is_missing() => return Ok(None),
+            lock => lock?,
+        };
         while !self.disk.try_lock_shared(&lock, &path)? {
             wait();
         }
-        Ok(Session { lock })
+        self.refuse_other_format()?;
+        Ok(Some(Session { lock, notices: Vec::new() }))
+    }
+
+    /// Takes the store for oneself: no run is alive while the session is held, and runs that begin wait for its end. None
+    /// where there is no store.
+    ///
+    /// # Errors
+    /// The disk's; a store of another format.
+    pub fn begin_alone(&self, wait: &mut dyn FnMut()) -> Result<Option<Session>, StoreError> {
+        let path = self.lock_path("store");
+        let lock = match self.disk.open_existing_lock(&path) {
+            Err(error) if error.is_missing() => return Ok(None),
+            lock => lock?,
+        };
+        while !self.disk.try_lock(&lock, &path)? {
+            wait();
+        }
+        self.refuse_other_format()?;
+        Ok(Some(Session { lock, notices: Vec::new() }))
     }
 
     /// Ends a run's use of the store; true when no other run is alive, in which case none is writing anything.
     pub(super) fn end(&self, session: Session) -> bool {
         self.disk.try_lock(&session.lock, &self.lock_path("store")).unwrap_or(false)
+    }
+
+    /// The entries of a folder; none where there is no such folder.
+    pub(super) fn list_if_there(&self, folder: &Path) -> Result<Vec<Entry>, StoreError> {
+        match self.disk.list(folder) {
+            Err(error) if error.is_missing() => Ok(Vec::new()),
+            entries => Ok(entries?),
+        }
     }
 
     /// Temporary files in a folder.

@@ -56,26 +56,60 @@ pub(super) fn execute(graph: &Graph, store: &Store, job: Job) -> Result<Done, Fa
 }
 
 fn attempt(graph: &Graph, store: &Store, job: Job) -> Result<Done, Failure> {
-    let placed = &graph.nodes[job.node];
-    let mut inputs = Inputs::default();
-    for ((input, object), logical) in placed.node.inputs.iter().zip(&job.objects).zip(&job.logical) {
-        let bytes = store.object(*object).map_err(|_| Failure::Store(StoreError::Rotted { object: *object }))?;
-        inputs.insert(&input.name, InputFile { bytes: Arc::new(bytes), logical: *logical });
-    }
-    let begun = Instant::now();
-    let product = placed.node.compute.run(&inputs).map_err(|error| Failure::Node(error.message))?;
-    let duration = begun.elapsed();
-    drop(inputs);
-    let mut names = BTreeSet::new();
-    if let Some(twice) = product.artifacts.iter().find(|artifact| !names.insert(&artifact.name)) {
-        return Err(Failure::DuplicateArtifact(twice.name.clone()));
-    }
+    let (product, duration) = compute(graph, store, job.node, &job.logical, &job.objects)?;
     let record = keep(graph, store, &job, &product).map_err(Failure::Store)?;
     // From here on another run finds the result in the store.
     drop(job.lock);
     let differs = job.previous.as_ref().map_or_else(Vec::new, |previous| differing(previous, &record));
     let exports = job.outgoing.iter().map(|outgoing| bring(graph, store, &record, &product, outgoing)).collect();
     Ok(Done { record, duration, differs, exports })
+}
+
+/// Reads the inputs of a node, whose logical digests and objects are given in their order, and computes.
+fn compute(
+    graph: &Graph,
+    store: &Store,
+    node: usize,
+    logical: &[Digest],
+    objects: &[Digest],
+) -> Result<(Product, Duration), Failure> {
+    let placed = &graph.nodes[node];
+    let mut inputs = Inputs::default();
+    for ((input, object), logical) in placed.node.inputs.iter().zip(objects).zip(logical) {
+        let bytes = store.object(*object).map_err(|_| Failure::Store(StoreError::Rotted { object: *object }))?;
+        inputs.insert(&input.name, InputFile { bytes: Arc::new(bytes), logical: *logical });
+    }
+    let begun = Instant::now();
+    let product = placed.node.compute.run(&inputs).map_err(|error| Failure::Node(error.message))?;
+    let duration = begun.elapsed();
+    let mut names = BTreeSet::new();
+    if let Some(twice) = product.artifacts.iter().find(|artifact| !names.insert(&artifact.name)) {
+        return Err(Failure::DuplicateArtifact(twice.name.clone()));
+    }
+    Ok((product, duration))
+}
+
+/// Computes a stored node again, storing nothing: the artifacts that come out otherwise, `work` among them.
+pub(super) fn recompute(
+    graph: &Graph,
+    store: &Store,
+    node: usize,
+    stored: &Record,
+    logical: &[Digest],
+    objects: &[Digest],
+) -> Result<Vec<String>, Failure> {
+    let attempt = || {
+        let (product, _) = compute(graph, store, node, logical, objects)?;
+        let outputs = product.artifacts.iter().map(|artifact| Output {
+            name: artifact.name.clone(),
+            object: Digest::of(&artifact.bytes),
+            logical: artifact.logical,
+            size: artifact.bytes.len() as u64,
+        });
+        Ok(differing(stored, &Record { key: stored.key, outputs: outputs.collect(), work: product.work }))
+    };
+    let done = catch_unwind(AssertUnwindSafe(attempt));
+    done.unwrap_or_else(|panic| Err(Failure::Panic(words(panic.as_ref()))))
 }
 
 /// Stores a product: objects first, then the record that names them.
