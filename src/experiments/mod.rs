@@ -2,9 +2,9 @@
 
 pub mod definition;
 pub mod nodes;
-pub mod spin_branches;
 #[cfg(test)]
 pub mod preview;
+pub mod spin_branches;
 
 macro_rules! experiments {
     ($($name:ident)*) => {
@@ -15,5 +15,7 @@ macro_rules! experiments {
 }
 
 experiments! {
+    fig5
     fig7
+    fig8
 }

@@ -115,7 +115,11 @@ pub fn rounding(p_theta: f64, slope: f64) -> f64 {
 /// `|∂ ln t1/∂ ln p_θ|` for each row of a branch: the steeper of the two secants.
 pub fn slopes(p_theta: &[f64], t1: &[f64]) -> Vec<f64> {
     let secant = |i: usize| {
-        if p_theta[i] > 0.0 { (libm::log(t1[i + 1] / t1[i]) / libm::log(p_theta[i + 1] / p_theta[i])).abs() } else { 0.0 }
+        if p_theta[i] > 0.0 {
+            (libm::log(t1[i + 1] / t1[i]) / libm::log(p_theta[i + 1] / p_theta[i])).abs()
+        } else {
+            0.0
+        }
     };
     let last = p_theta.len().saturating_sub(1);
     (0..p_theta.len())

@@ -92,7 +92,13 @@ struct Trajectory {
 }
 
 /// Integrates in the scalar `S` and samples; the work's dense points are those asked for.
-fn trajectory<S: Real>(k: f64, p: f64, t1: f64, step: f64, tolerance: f64) -> Result<(Vec<(f64, Place)>, Work), NodeError> {
+fn trajectory<S: Real>(
+    k: f64,
+    p: f64,
+    t1: f64,
+    step: f64,
+    tolerance: f64,
+) -> Result<(Vec<(f64, Place)>, Work), NodeError> {
     let doing = format!("k = {k:?}, p_theta = {p:?}");
     let (zero, one, two) = (S::ZERO, S::ONE, S::from_f64(2.0));
     let start = [one, zero, zero, zero, -S::from_f64(p), two];
