@@ -2,7 +2,7 @@
 //!
 //! Rows run from the asymptote of the ascending branch through the cusp, `p_θ = √μ(φ0)`, to the asymptote of the descending branch. With
 //! `δ = B p_θ² − 1` and `φ'(0)² = s² φ'_max²`, `δ = δ_max (1 − s²)`: rows are equally spaced in s near the cusp, where place and time are smooth in s (as they are in
-//! ψ0, but not in `p_θ`), and in log δ towards the separatrix, where the locus takes infinite room.
+//! ψ0, but not in `p_θ`), and then in √(log 1/δ) towards the separatrix: ever wider apart where the locus runs to infinity.
 
 use super::body::{Body, ClairautStart};
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
@@ -14,7 +14,7 @@ use crate::table::Table;
 use rayon::prelude::*;
 use serde::Serialize;
 
-/// Where the spacing in s gives way to that in log δ, as a part of `δ_max`.
+/// Where the spacing in s gives way to that in √(log 1/δ), as a part of `δ_max`.
 const JOIN: f64 = 0.25;
 
 /// How the constants of an oscillating fan are spaced, from the cusp to the separatrix.
@@ -24,7 +24,7 @@ pub struct Spacing {
     pub smallest: f64,
     /// Intervals in s, from the cusp.
     pub cusp: usize,
-    /// Intervals in log δ, to the separatrix.
+    /// Intervals in √(log 1/δ), to the separatrix.
     pub tail: usize,
 }
 
@@ -50,7 +50,10 @@ impl Spacing {
             largest * (1.0 - (1.0 - JOIN) * part * part)
         });
         let (from, to) = (Real::ln(JOIN), Real::ln(smallest));
-        let far = (1..=tail).map(|j| largest * Real::exp(from + (to - from) * (j as f64 / tail as f64)));
+        let far = (1..=tail).map(|j| {
+            let part = j as f64 / tail as f64;
+            largest * Real::exp(from + (to - from) * part * part)
+        });
         Ok(near.chain(far).collect())
     }
 }
@@ -129,5 +132,24 @@ impl Compute for ConjugateLocus {
             .build()
             .map_err(failed("conjugate locus"))?;
         product(&table, closed_form_work(&points))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_fall_from_the_cusp_to_the_smallest() {
+        let metric = Body { a: 1.5, b: 2.0, c: 2.8 }.metric::<f64>().unwrap();
+        let spacing = Spacing { smallest: 1e-8, cusp: 10, tail: 20 };
+        let deltas = spacing.deltas(&metric, 0.0).unwrap();
+        assert_eq!(deltas.len(), 31);
+        assert!(deltas.windows(2).all(|pair| pair[1] < pair[0]), "{deltas:?}");
+        // B/A − 1 and 1e-8 of it; exp loses ε times its argument, 18.
+        assert!((deltas[0] - 1.0 / 3.0).abs() <= f64::EPSILON);
+        assert!((deltas[30] * 3e8 - 1.0).abs() <= 32.0 * f64::EPSILON);
+        assert!(spacing.deltas(&metric, 1.55).is_err());
+        assert!(Spacing { smallest: 0.3, ..spacing }.deltas(&metric, 0.0).is_err());
     }
 }

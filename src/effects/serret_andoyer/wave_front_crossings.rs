@@ -89,7 +89,6 @@ impl WaveFrontCrossings {
             // first·a − second·b = gap
             let cross = a.1 * b.0 - a.0 * b.1;
             let (x, y) = ((gap.1 * b.0 - gap.0 * b.1) / cross, (a.0 * gap.1 - a.1 * gap.0) / cross);
-            let y = -y;
             if !(x.is_finite() && y.is_finite()) {
                 break;
             }
