@@ -3,34 +3,13 @@
 //! `just bless` writes them anew; read the difference before committing it. All experiments are computed afresh here, in a
 //! folder of their own, so that nothing old can be compared with itself.
 
-#![expect(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
+#![expect(clippy::expect_used, reason = "helpers of tests")]
 
 mod support;
 
-use polhode::check::golden::{Golden, render};
-use polhode::check::report::verdicts;
-use polhode::cli::arguments::{PlaceArguments, RunArguments};
-use polhode::cli::session::Session;
-use polhode::cli::{check, figures};
-use polhode::pipeline::report::Outcome;
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use support::{Workspace, all_experiments, files, repository};
-
-/// What the goldens should say now, by experiment.
-fn goldens(workspace: &Workspace) -> Vec<(String, String)> {
-    let place = PlaceArguments { experiments: Some(workspace.path("experiments")), ..PlaceArguments::default() };
-    let mut session = Session::begin(&place, &[]).unwrap_or_else(|refused| panic!("{}", refused.text));
-    let report = figures::execute(&mut session, &RunArguments { place, no_progress: true, ..RunArguments::default() });
-    let failures: Vec<String> = report.failures().map(|(address, failure)| format!("{address}: {failure}")).collect();
-    assert_eq!(report.outcome(), Outcome::Success, "{}", failures.join("\n"));
-    let subjects = check::subjects(&session, &report).unwrap_or_else(|refused| panic!("{}", refused.text));
-    let golden = subjects.into_iter().map(|subject| {
-        let golden = Golden { verdicts: verdicts(&subject.findings.claims), ..subject.golden };
-        (golden.experiment.clone(), render(&golden))
-    });
-    golden.collect()
-}
+use support::{Workspace, all_experiments, files, goldens, repository};
 
 #[test]
 fn experiments_are_as_their_goldens_say() {

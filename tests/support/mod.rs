@@ -3,6 +3,12 @@
 #![allow(dead_code, reason = "each test file uses a part")]
 #![expect(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
+use polhode::check::golden::{Golden, render};
+use polhode::check::report::verdicts;
+use polhode::cli::arguments::{PlaceArguments, RunArguments};
+use polhode::cli::session::Session;
+use polhode::cli::{check, figures};
+use polhode::pipeline::report::Outcome;
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
@@ -247,4 +253,19 @@ impl Shared {
         copy_tree(&fresh.root, &root);
         Self { workspace: Workspace { root, _temporary: None }, _lock: lock }
     }
+}
+
+/// What the goldens should say now, by experiment.
+pub fn goldens(workspace: &Workspace) -> Vec<(String, String)> {
+    let place = PlaceArguments { experiments: Some(workspace.path("experiments")), ..PlaceArguments::default() };
+    let mut session = Session::begin(&place, &[]).unwrap_or_else(|refused| panic!("{}", refused.text));
+    let report = figures::execute(&mut session, &RunArguments { place, no_progress: true, ..RunArguments::default() });
+    let failures: Vec<String> = report.failures().map(|(address, failure)| format!("{address}: {failure}")).collect();
+    assert_eq!(report.outcome(), Outcome::Success, "{}", failures.join("\n"));
+    let subjects = check::subjects(&session, &report).unwrap_or_else(|refused| panic!("{}", refused.text));
+    let golden = subjects.into_iter().map(|subject| {
+        let golden = Golden { verdicts: verdicts(&subject.findings.claims), ..subject.golden };
+        (golden.experiment.clone(), render(&golden))
+    });
+    golden.collect()
 }
