@@ -16,4 +16,4 @@ macro_rules! experiments {
     };
 }
 
-experiments! { fig1 fig2 remark_3_25 fig4 }
+experiments! { fig1 fig2 remark_3_25 fig4 fig9 }
