@@ -6,6 +6,7 @@ pub mod counted;
 pub mod point;
 pub mod product;
 pub mod quantities;
+pub mod rotation_group;
 pub mod scene;
 pub mod serret_andoyer;
 pub mod spin;

@@ -6,6 +6,7 @@ use crate::contract::accuracy::Accuracy;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::sweep::Sweep;
 use crate::effects::spin::momenta::Momenta;
+use crate::geometry::rotation_group::euler_angles::SMALLEST_SINE;
 use crate::geometry::serret_andoyer::Metric;
 use serde::{Deserialize, Serialize};
 
@@ -29,6 +30,10 @@ pub enum Effect {
     Period,
     /// Attitude of the body: Euler angles along a trajectory.
     Attitude,
+    /// First two conjugate times of single trajectories, by the first route and by the second.
+    ConjugateTimes,
+    /// What a trajectory on SO(3) projects to in the Serret-Andoyer variables.
+    Projection,
     /// Parameters at which the first conjugate point passes a pole or the equator.
     SwitchPoints,
     /// Trajectories sorted into types by what they do up to a first exit.
@@ -47,6 +52,8 @@ impl Effect {
             Self::Potential => "potential",
             Self::Period => "period",
             Self::Attitude => "attitude",
+            Self::ConjugateTimes => "conjugate-times",
+            Self::Projection => "projection",
             Self::SwitchPoints => "switch-points",
             Self::TrajectoryTypes => "trajectory-types",
         }
@@ -68,7 +75,7 @@ pub const METRICS: &[(&str, &[Effect])] = &[
         ],
     ),
     ("spin", &[Effect::Geodesics, Effect::ConjugateLocus]),
-    ("rotation-group", &[Effect::ConjugateLocus, Effect::Attitude]),
+    ("rotation-group", &[Effect::Attitude, Effect::ConjugateTimes, Effect::Projection]),
 ];
 
 /// A scene: `M` is the metric's part of the config, `S` the start's.
@@ -150,6 +157,63 @@ pub struct Inertia {
 impl From<Inertia> for crate::effects::serret_andoyer::body::Body {
     fn from(inertia: Inertia) -> Self {
         Self { a: inertia.a, b: inertia.b, c: inertia.c }
+    }
+}
+
+impl From<Inertia> for crate::effects::rotation_group::start::Body {
+    fn from(inertia: Inertia) -> Self {
+        Self { a: inertia.a, b: inertia.b, c: inertia.c }
+    }
+}
+
+/// `start = { cases = [{ Phi = [0.0, 2.8506, -0.32175], p = [0.0, 0.0, 0.3155946] }] }`: single extremals on SO(3).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EulerCases {
+    /// The extremals, in the order of their panels.
+    pub cases: Vec<EulerCase>,
+}
+
+/// Euler angles and their momenta.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EulerCase {
+    /// Φ1, Φ2, Φ3 (rad), sin Φ2 not zero.
+    #[serde(rename = "Phi")]
+    pub phi: [f64; 3],
+    /// p1, p2, p3, not all zero.
+    pub p: [f64; 3],
+}
+
+impl From<EulerCase> for crate::effects::rotation_group::start::EulerStart {
+    fn from(case: EulerCase) -> Self {
+        Self { phi: case.phi, p: case.p }
+    }
+}
+
+impl EulerCases {
+    /// Refuses an empty list, numbers that are not finite, poles of the chart and bodies at rest.
+    ///
+    /// # Errors
+    /// The first value that is not accepted.
+    pub fn validate(&self) -> Result<(), Invalid> {
+        Invalid::unless(!self.cases.is_empty(), "scene.start.cases", "[]", "a list of at least one start")?;
+        for (i, EulerCase { phi, p }) in self.cases.iter().enumerate() {
+            let key = |name: &str| format!("scene.start.cases[{i}].{name}");
+            for j in 0..3 {
+                Invalid::number(phi[j].is_finite(), key(&format!("Phi[{j}]")), phi[j], "a finite number")?;
+                Invalid::number(p[j].is_finite(), key(&format!("p[{j}]")), p[j], "a finite number")?;
+            }
+            let away = libm::sin(phi[1]).abs() >= SMALLEST_SINE;
+            Invalid::number(
+                away,
+                key("Phi[1]"),
+                phi[1],
+                "a number with sin Phi2 not 0: there Euler angles have a pole",
+            )?;
+            Invalid::unless(*p != [0.0; 3], key("p"), "[0, 0, 0]", "momenta that are not all zero")?;
+        }
+        Ok(())
     }
 }
 
