@@ -13,4 +13,4 @@ macro_rules! experiments {
     };
 }
 
-experiments! { fig4 }
+experiments! { fig4 fig6 }
