@@ -12,3 +12,7 @@ pub mod serret_andoyer;
 pub mod spin;
 pub mod switch_points;
 pub mod switch_points_by_integration;
+pub mod theta_turning_points;
+pub mod trajectory_types;
+pub mod type_ranges;
+pub mod typed_trajectories;

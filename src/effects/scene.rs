@@ -378,6 +378,14 @@ impl Validate for BranchStart {
     }
 }
 
+/// `start = { p_theta = { from = 1e-4, to = 50, count = 400, spacing = "log" } }`: the same for many `p_θ`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EquatorStarts {
+    /// `p_θ(0)`: a number, a list or a range.
+    pub p_theta: Sweep,
+}
+
 impl Validate for SpinMetric {
     fn validate(&self) -> Result<(), Invalid> {
         self.spin.k.validate_each("scene.metric.spin.k", "k > 0", |k| k > 0.0)

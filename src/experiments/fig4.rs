@@ -351,8 +351,8 @@ fn meridian_claim(tables: &Tables) -> Result<Claim, NodeError> {
                  than 1e-3"
             .to_owned(),
     };
-    let statement = "θ of the first conjugate point only takes approximately the values 0 and π: it lies on the meridian \
-                     of the start.";
+    let statement = "θ of the first conjugate point only takes approximately the values 0 and π: it lies on the \
+                     meridian of the start.";
     let note = format!(
         "θ passes continuously from π to 0 and back, since r3 is of order p_θ³ and not 0; it is farther than 1e-3 rad \
          from both within less than {width:.1e} of k in all."
@@ -365,8 +365,8 @@ fn curve_routes_agree(tables: &Tables) -> Result<Claim, NodeError> {
     let test = Test::AtMost {
         measured: check.in_bounds,
         tolerance: 1.0,
-        reason: "in units of what each row allows: a hundred times the accuracy asked for (1e-12), or the closed form's \
-                 own bound next to the vertical tangents at the equator"
+        reason: "in units of what each row allows: a hundred times the accuracy asked for (1e-12), or the closed \
+                 form's own bound next to the vertical tangents at the equator"
             .to_owned(),
     };
     let statement = "Closed form and integration give the same conjugate times.";

@@ -117,10 +117,10 @@ impl<S: Algebra> Tangent<S> for SpinLift<S> {
 
 /// `J = −r·δh` along one column.
 #[derive(Clone, Copy, Debug)]
-struct ConjugateScalar;
+pub(super) struct ConjugateScalar;
 
-type Lifted<S> = WithColumns<SpinLift<S>, (), 1>;
-type LiftedState<T> = Joined<[T; 6], Columns<[T; 3], 1>>;
+pub(super) type Lifted<S> = WithColumns<SpinLift<S>, (), 1>;
+pub(super) type LiftedState<T> = Joined<[T; 6], Columns<[T; 3], 1>>;
 
 impl<S: Real> EventFunction<S, Lifted<S>> for ConjugateScalar {
     const DEGREE: usize = 2;
@@ -187,7 +187,8 @@ pub enum LiftError {
     Integration(#[from] IntegrationError),
 }
 
-fn posed<S: Real>(k: S, p_theta: S) -> Result<(SpinLift<S>, [S; 6]), LiftError> {
+/// The flow and the start of the module page, for checked inputs.
+pub(super) fn posed<S: Real>(k: S, p_theta: S) -> Result<(SpinLift<S>, [S; 6]), LiftError> {
     if !(k > S::ZERO && k.is_finite()) {
         return Err(LiftError::Domain { name: "k", value: k.to_f64(), accepted: "must be finite and positive" });
     }

@@ -17,6 +17,9 @@
 //! | `lift` | the lift of the flow to R³ × so(3)*: the second route, by integration |
 //! | `limits` | the limits p_θ → 0 and p_θ → ∞ and the round case k = 1 |
 //! | `switch_points` | the values of k at which the conjugate point crosses a pole or the equator (Fig. 4) |
+//! | `theta` | where θ turns along an extremal, its continuous branch, its total decrease, the first exit from [0, π] |
+//! | `self_intersection` | points that a trajectory visits twice |
+//! | `trajectory_type` | the four types of trajectory of section 5.2.1 (Fig. 6) |
 
 pub mod conjugate;
 pub mod expansion;
@@ -25,9 +28,12 @@ pub mod landen;
 pub mod lift;
 pub mod limits;
 pub mod phase;
+pub mod self_intersection;
 pub mod solve;
 pub mod start;
 pub mod switch_points;
+pub mod theta;
+pub mod trajectory_type;
 
 #[cfg(test)]
 mod tests;

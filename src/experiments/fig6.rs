@@ -1,0 +1,660 @@
+//! Fig. 6 (section 5.2.1): the four types of trajectory of the spin problem for `k ≥ 1`, found by a classification.
+//!
+//! Start on the equator, φ(0) = π/2, θ(0) = 0, p_φ(0) = −2, H = 1, `p_θ > 0`; angles in radians, φ from the pole. Over
+//! a grid of k and `p_θ`: type i, θ does not decrease on `[0, t1]`; else by the first exit t̄ from 0 ≤ θ ≤ π (which
+//! lies after t1) and by self-intersection on `[0, t̄]`: ii, none and θ(t̄) = 0; iii, one and θ(t̄) = 0; iv, one and
+//! θ(t̄) = π. The range of k of each type, one trajectory of each, and the article's example k = 1.01, `p_θ = 0.1` of a
+//! θ that is not monotone.
+//!
+//! Hard spots: θ turns at every crossing of the equator as soon as k ≠ 1, if only by 1e-8, so monotony needs a
+//! tolerance; passes near the poles, where θ changes by almost π at once: turning points and exit are roots of
+//! polynomials in the lift, never sampled.
+
+use super::definition::{Definition, Experiment, findings_kind, picture_kind};
+use super::nodes::Nodes;
+use crate::contract::accuracy::Accuracy;
+use crate::contract::claim::{Claim, Evidence, Test};
+use crate::contract::config::{Invalid, Validate};
+use crate::contract::node::{Kind, NodeError};
+use crate::contract::value::NamedValue;
+use crate::effects::scene::{Effect, EquatorStarts, Scene, SpinMetric};
+use crate::effects::switch_points::{EQUATOR, POLE, SwitchPoints};
+use crate::effects::theta_turning_points::ThetaTurningPoints;
+use crate::effects::trajectory_types::TrajectoryTypes;
+use crate::effects::type_ranges::{self, TypeRanges};
+use crate::effects::typed_trajectories::{self, CONJUGATE, EXIT, INTERSECTION, START, TypedTrajectories};
+use crate::plot::axis::Axis;
+use crate::plot::mark::{Curve, Points, RuleLine};
+use crate::plot::picture::{Layout, Letter, Panel, Picture, Width};
+use crate::plot::role::Role;
+use crate::table::{Table, TableError, Tables};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
+
+/// Parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Params {
+    /// The grid of k and `p_θ`, effects, accuracy.
+    pub scene: Scene<SpinMetric, EquatorStarts>,
+    /// How types are told apart.
+    pub types: Types,
+    /// The article's example of a θ that is not monotone.
+    pub example: Example,
+}
+
+/// How types are told apart.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Types {
+    /// A total decrease of θ on `[0, t1]` up to this counts as none, radians, in (0, π).
+    pub decrease_tolerance: f64,
+    /// One more `p_θ` of the grid, above 0.
+    pub smallest_p_theta: f64,
+    /// The switch points are looked for up to this k, above the grid's smallest.
+    pub switch_points_to: f64,
+}
+
+/// One extremal.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Example {
+    /// Ratio of the couplings, above 0.
+    pub k: f64,
+    /// `p_θ(0)`, above 0.
+    pub p_theta: f64,
+    /// How far it is followed, above 0.
+    pub t_end: f64,
+}
+
+impl Validate for Params {
+    fn validate(&self) -> Result<(), Invalid> {
+        let k = &self.scene.metric.spin.k;
+        k.validate_each("scene.metric.spin.k", "k ≥ 1, in ascending order", |k| k >= 1.0)?;
+        let values = k.values();
+        let ascending = values.len() >= 2 && values.is_sorted();
+        Invalid::unless(ascending, "scene.metric.spin.k", format!("{values:?}"), "at least two values, ascending")?;
+        self.scene.start.p_theta.validate_each("scene.start.p_theta", "p_theta > 0", |p| p > 0.0)?;
+        self.scene.validate_effects(&[Effect::TrajectoryTypes, Effect::Geodesics])?;
+        let Types { decrease_tolerance, smallest_p_theta, switch_points_to } = self.types;
+        let right = decrease_tolerance > 0.0 && decrease_tolerance < PI;
+        Invalid::number(right, "types.decrease_tolerance", decrease_tolerance, "an angle above 0, below π")?;
+        let positive = |key: &str, value: f64| {
+            Invalid::number(value > 0.0 && value.is_finite(), key, value, "a number above 0")
+        };
+        positive("types.smallest_p_theta", smallest_p_theta)?;
+        let right = switch_points_to > values[0] && switch_points_to.is_finite();
+        Invalid::number(right, "types.switch_points_to", switch_points_to, "a number above the grid's smallest k")?;
+        positive("example.k", self.example.k)?;
+        positive("example.p_theta", self.example.p_theta)?;
+        positive("example.t_end", self.example.t_end)
+    }
+}
+
+/// The experiment.
+pub const EXPERIMENT: Experiment = Experiment::of::<Fig6>();
+
+const PICTURE: Kind = picture_kind("fig6-picture", &["experiments/fig6.rs", "plot", "table"]);
+const FINDINGS: Kind = findings_kind("fig6-findings", &["experiments/fig6.rs", "table"]);
+const GRID: &str = "trajectory-types";
+const RANGES: &str = "type-ranges";
+const SWITCHES: &str = "switch-points";
+const TURNS: &str = "theta-turning-points";
+const DRAWN: &str = "typed-trajectories";
+const PLACE: &str = "section 5.2.1, Fig. 6";
+/// A fall of θ that is more than rounding next to a pole, radians.
+const A_FALL: f64 = 1e-9;
+/// The article's time for its example.
+const PRINTED_TIME: f64 = 14.0;
+/// The types with the switch point (passage, index, name) at which each begins according to the article.
+const BEGINNINGS: [(&str, &str, i64, &str); 3] =
+    [("ii", POLE, 1, "k1"), ("iii", EQUATOR, 2, "k_bar"), ("iv", POLE, 2, "k2")];
+
+struct Fig6;
+
+impl Definition for Fig6 {
+    type Params = Params;
+
+    const ID: &'static str = "fig6";
+    const TITLE: &'static str = "the four types of trajectory of the spin problem for k ≥ 1";
+    const PLACE: &'static str = "Figure 6";
+    const PICTURE: &'static Kind = &PICTURE;
+    const FINDINGS: &'static Kind = &FINDINGS;
+
+    fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
+        params.scene.accuracy = accuracy;
+    }
+
+    fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        let Types { decrease_tolerance, smallest_p_theta, switch_points_to } = params.types;
+        let accuracy = params.scene.accuracy.relative_error();
+        let k = params.scene.metric.spin.k.clone();
+        let key = |key: &str| key.to_owned();
+        let tolerances =
+            [("decrease_tolerance", key("types.decrease_tolerance")), ("accuracy", key("scene.accuracy"))];
+        let mut origins = tolerances.to_vec();
+        origins.push(("k", key("scene.metric.spin.k")));
+        origins.push(("p_theta", key("scene.start.p_theta")));
+        origins.push(("smallest_p_theta", key("types.smallest_p_theta")));
+        let p_theta = params.scene.start.p_theta.clone();
+        let grid = TrajectoryTypes { k: k.clone(), p_theta, smallest_p_theta, decrease_tolerance, accuracy };
+        let grid = nodes.add(GRID, &[], grid, &[], &origins)?;
+        if params.scene.asks_for(Effect::Geodesics) {
+            let input = [(typed_trajectories::INPUT, &grid)];
+            nodes.add(DRAWN, &[], TypedTrajectories { accuracy }, &input, &tolerances[1..])?;
+        }
+        if params.scene.asks_for(Effect::TrajectoryTypes) {
+            let input = [(type_ranges::INPUT, &grid)];
+            nodes.add(RANGES, &[], TypeRanges { decrease_tolerance, accuracy }, &input, &tolerances)?;
+            let k_low = k.values()[0];
+            let switches = SwitchPoints { p_theta: smallest_p_theta, k_low, k_high: switch_points_to };
+            let origins = [
+                ("p_theta", key("types.smallest_p_theta")),
+                ("k_low", key("scene.metric.spin.k")),
+                ("k_high", key("types.switch_points_to")),
+            ];
+            nodes.add(SWITCHES, &[], switches, &[], &origins)?;
+            let Example { k, p_theta, t_end } = params.example;
+            let origins = [
+                ("k", key("example.k")),
+                ("p_theta", key("example.p_theta")),
+                ("t_end", key("example.t_end")),
+                ("accuracy", key("scene.accuracy")),
+            ];
+            nodes.add(TURNS, &[], ThetaTurningPoints { k, p_theta, t_end, accuracy }, &[], &origins)?;
+        }
+        Ok(())
+    }
+
+    fn picture(params: &Params, tables: &Tables) -> Result<Picture, NodeError> {
+        let picture = Picture::new(Width::Double, 170.0, "The four types of trajectory").layout(Layout::Columns(2));
+        if !params.scene.asks_for(Effect::Geodesics) {
+            return chart_of_types(params, tables.get(GRID).map_err(unread)?);
+        }
+        let table = tables.get(DRAWN).map_err(unread)?;
+        let mut picture = picture;
+        let mut drawn = Vec::new();
+        for kind in ["i", "ii", "iii", "iv"] {
+            let Some(example) = Drawn::read(table, kind)? else { continue };
+            drawn.push(format!("({kind}) k = {:.4}, p_θ = {:.4}", example.k, example.p_theta));
+            picture = picture.panel(example.panel(kind));
+        }
+        Ok(picture.caption(format!(
+            "Spin problem, start on the equator with p_φ = −2, H = 1: {}. Line: equator, singular. Cross: start. Disc: \
+             first conjugate point (closed form, 1e-14). Diamond: first exit from 0 ≤ θ ≤ π, at t̄. Circle: \
+             self-intersection. (i) θ does not decrease on [0, t1], within {} rad in all; (ii) no self-intersection, \
+             θ(t̄) = 0; (iii) self-intersection, θ(t̄) = 0; (iv) self-intersection, θ(t̄) = π. Chosen by rule from a \
+             classified grid: the middle k with all four types, the middle p_θ of each. Integrated on R³ × so(3)* by \
+             power series, {} points, no side longer than 0.04 rad.",
+            drawn.join(", "),
+            params.types.decrease_tolerance,
+            table.rows(),
+        )))
+    }
+
+    fn values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
+        let mut values = Vec::new();
+        if params.scene.asks_for(Effect::TrajectoryTypes) {
+            values.extend(range_values(tables.get(RANGES).map_err(unread)?)?);
+            values.extend(grid_values(tables.get(GRID).map_err(unread)?)?);
+            values.extend(example_values(tables.get(TURNS).map_err(unread)?, params.types.decrease_tolerance)?);
+        }
+        if params.scene.asks_for(Effect::Geodesics) {
+            let distance = largest(tables.get(DRAWN).map_err(unread)?, "closed_form_distance")?;
+            values.push(value(
+                "largest_position_difference",
+                (distance, 4.0 * f64::EPSILON),
+                "rad",
+                "largest distance of a drawn point to the closed form's point of the same time",
+                "power series against closed form",
+            ));
+        }
+        Ok(values)
+    }
+
+    fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
+        if !params.scene.asks_for(Effect::TrajectoryTypes) {
+            return Ok(Vec::new());
+        }
+        let grid = Grid::read(tables.get(GRID).map_err(unread)?)?;
+        let switches = tables.get(SWITCHES).map_err(unread)?;
+        let mut claims = vec![grid.monotone_claim(params.types.decrease_tolerance)];
+        for (kind, passage, index, name) in BEGINNINGS {
+            let Some((k, error)) = switch(switches, passage, index)? else { continue };
+            claims.push(grid.range_claim(kind, name, k));
+            let ranges = tables.get(RANGES).map_err(unread)?;
+            claims.extend(beginning_claim(ranges, kind, name, (k, error), params.types.smallest_p_theta)?);
+        }
+        claims.push(grid.exit_claim());
+        claims.push(grid.complete_claim(params.types.decrease_tolerance));
+        claims.extend(example_claim(params, tables.get(TURNS).map_err(unread)?)?);
+        claims.push(routes_agree(tables.get(GRID).map_err(unread)?)?);
+        Ok(claims)
+    }
+}
+
+fn unread(error: TableError) -> NodeError {
+    NodeError::new(error.to_string())
+}
+
+fn largest(table: &Table, column: &str) -> Result<f64, NodeError> {
+    Ok(table.f64s(column).map_err(unread)?.iter().copied().fold(0.0, f64::max))
+}
+
+/// One trajectory, as it is drawn.
+struct Drawn {
+    k: f64,
+    p_theta: f64,
+    points: Vec<(f64, f64)>,
+    marks: Vec<(String, (f64, f64))>,
+}
+
+impl Drawn {
+    fn read(table: &Table, kind: &str) -> Result<Option<Self>, NodeError> {
+        let of_kind = table.texts("type").map_err(unread)?;
+        let (theta, phi) = (table.f64s("theta").map_err(unread)?, table.f64s("phi").map_err(unread)?);
+        let (p_theta, mark) = (table.f64s("p_theta").map_err(unread)?, table.texts("mark").map_err(unread)?);
+        let rows: Vec<usize> = (0..table.rows()).filter(|i| of_kind[*i] == kind).collect();
+        let Some(&first) = rows.first() else { return Ok(None) };
+        let points = rows.iter().map(|i| (theta[*i], phi[*i])).collect();
+        let marks = rows.iter().map(|i| (mark[*i].clone(), (theta[*i], phi[*i]))).collect();
+        let k = table.f64s("k").map_err(unread)?[first];
+        Ok(Some(Self { k, p_theta: p_theta[first], points, marks }))
+    }
+
+    fn panel(self, kind: &str) -> Panel {
+        let ticks = [(0.0, "0"), (FRAC_PI_4, "π/4"), (FRAC_PI_2, "π/2"), (3.0 * FRAC_PI_4, "3π/4"), (PI, "π")];
+        let angle = |name: &str| Axis::new(name).unit("rad").ticks_at(ticks).fixed(-0.12, PI + 0.12);
+        let mut panel = Panel::new(angle("*θ*"), angle("*φ*"))
+            .equal()
+            .title(format!("({kind})  *k* = {:.4}, *p*_*θ* = {:.4}", self.k, self.p_theta))
+            .mark(RuleLine::horizontal(Role::Equator, FRAC_PI_2))
+            .mark(RuleLine::vertical(Role::Reference, 0.0))
+            .mark(RuleLine::vertical(Role::Reference, PI))
+            .mark(Curve::new(Role::Geodesic, self.points).arrow(0.25));
+        panel.letter = Letter::None;
+        let looks = [
+            (START, Role::Start, "start"),
+            (CONJUGATE, Role::ConjugatePoint, "first conjugate point"),
+            (EXIT, Role::EquatorCrossing, "first exit from 0 ≤ *θ* ≤ π"),
+            (INTERSECTION, Role::SelfIntersection, "self-intersection"),
+        ];
+        for (mark, role, text) in looks {
+            // Both times of a self-intersection are one point.
+            let point = self.marks.iter().find(|(name, _)| name == mark).map(|(_, point)| *point);
+            panel = panel.marks(point.map(|point| Points::new(role, vec![point]).legend(text)));
+        }
+        panel
+    }
+}
+
+/// The types over the plane of k and `p_θ`: what is drawn when no trajectories are asked for.
+fn chart_of_types(params: &Params, table: &Table) -> Result<Picture, NodeError> {
+    let (k, p_theta) = (table.f64s("k").map_err(unread)?, table.f64s("p_theta").map_err(unread)?);
+    let types = table.texts("type").map_err(unread)?;
+    let mut panel = Panel::new(Axis::new("*k*"), Axis::new("*p*_*θ*").log());
+    let looks = [("i", Role::SeriesA), ("ii", Role::SeriesB), ("iii", Role::SeriesC), ("iv", Role::SeriesD)];
+    for (kind, role) in looks {
+        let apart = |i: &usize| p_theta[*i] != params.types.smallest_p_theta;
+        let rows = (0..table.rows()).filter(|i| types[*i] == kind).filter(apart);
+        let points: Vec<(f64, f64)> = rows.map(|i| (k[i], p_theta[i])).collect();
+        panel = panel.mark(Points::new(role, points).legend(format!("type {kind}")));
+    }
+    let picture = Picture::new(Width::Double, 100.0, "Types of trajectories");
+    let caption = "Types of the trajectories over the grid of k and p_θ (section 5.2.1).";
+    Ok(picture.caption(caption).panel(panel))
+}
+
+fn value(name: impl Into<String>, (value, error): (f64, f64), unit: &str, meaning: &str, route: &str) -> NamedValue {
+    let (name, unit, meaning) = (name.into(), unit.to_owned(), meaning.to_owned());
+    NamedValue { name, value, unit, meaning, route: route.to_owned(), error }
+}
+
+fn range_values(table: &Table) -> Result<Vec<NamedValue>, NodeError> {
+    let column = |name: &str| table.f64s(name).map_err(unread);
+    let kinds = table.texts("type").map_err(unread)?;
+    let mut values = Vec::new();
+    for (end, what) in [("from", "smallest"), ("to", "largest")] {
+        let (k, error) = (column(&format!("k_{end}"))?, column(&format!("error_{end}"))?);
+        let of_grid = table.bools(&format!("{end}_is_end_of_grid")).map_err(unread)?;
+        for (i, kind) in kinds.iter().enumerate() {
+            let route = if of_grid[i] { "the grid ends there" } else { "bisection in k of the classification" };
+            let meaning = format!("{what} k with a trajectory of type {kind}, on the grid of p_θ");
+            values.push(value(format!("type_{kind}_k_{end}"), (k[i], error[i]), "1", &meaning, route));
+        }
+    }
+    Ok(values)
+}
+
+fn grid_values(table: &Table) -> Result<[NamedValue; 4], NodeError> {
+    let grid = Grid::read(table)?;
+    let of_type_i = |i: &usize| grid.types[*i] == "i";
+    let rows = || 0..grid.k.len();
+    let most = rows().filter(of_type_i).map(|i| grid.decrease[i]).fold(0.0, f64::max);
+    let least = rows().filter(|i| !of_type_i(i)).map(|i| grid.decrease[i]).fold(PI, f64::min);
+    let delay = rows().map(|i| grid.t_exit[i] - grid.t1[i]).filter(|delay| delay.is_finite()).fold(100.0, f64::min);
+    let route = "turning points of θ as roots of polynomials along the lift";
+    // θ next to a pole and exits for small p_θ: a few ε divided by p_θ.
+    let smallest = grid.p_theta.iter().copied().fold(1.0, f64::min);
+    let error = 64.0 * f64::EPSILON / smallest;
+    Ok([
+        value("largest_decrease_in_type_i", (most, error), "rad", "largest total decrease of θ in a type i", route),
+        value("smallest_decrease_elsewhere", (least, error), "rad", "smallest decrease of θ in types ii to iv", route),
+        value(
+            "smallest_exit_delay",
+            (delay, error),
+            "time",
+            "smallest t̄ − t1 on the grid",
+            "r3 = 0 along the lift, closed form of t1",
+        ),
+        value(
+            "largest_route_difference",
+            (largest(table, "t1_difference")?, 4.0 * f64::EPSILON),
+            "1",
+            "largest relative difference of t1 between closed form and integration",
+            "closed form against power series",
+        ),
+    ])
+}
+
+/// The first turning point after which θ falls by more than a bound before it rises again.
+fn first_fall(table: &Table, bound: f64) -> Result<Option<(f64, f64)>, NodeError> {
+    let (t, change) = (table.f64s("t").map_err(unread)?, table.f64s("change").map_err(unread)?);
+    let fall = (1..table.rows()).find(|i| -change[*i] > bound);
+    Ok(fall.map(|i| (t[i - 1], -change[i])))
+}
+
+fn example_values(table: &Table, tolerance: f64) -> Result<Vec<NamedValue>, NodeError> {
+    let route = "turning points of θ as roots of polynomials along the lift";
+    let mut values = Vec::new();
+    if let Some((t, _)) = first_fall(table, A_FALL)? {
+        let meaning = "time at which θ first falls in the article's example of a θ that is not monotone";
+        values.push(value("example_first_fall", (t, 1e-12), "time", meaning, route));
+    }
+    if let Some((t, fall)) = first_fall(table, tolerance)? {
+        let meaning = "time at which θ first begins to fall by more than the tolerance in that example";
+        values.push(value("example_visible_fall", (t, 1e-12), "time", meaning, route));
+        let meaning = "how far θ falls from there until it rises again";
+        values.push(value("example_visible_fall_by", (fall, 1e-12), "rad", meaning, route));
+    }
+    Ok(values)
+}
+
+/// The grid as it is read.
+struct Grid<'a> {
+    k: &'a [f64],
+    p_theta: &'a [f64],
+    types: &'a [String],
+    t1: &'a [f64],
+    decrease: &'a [f64],
+    t_exit: &'a [f64],
+    values: Vec<f64>,
+}
+
+impl<'a> Grid<'a> {
+    fn read(table: &'a Table) -> Result<Self, NodeError> {
+        let column = |name: &str| table.f64s(name).map_err(unread);
+        let k = column("k")?;
+        let mut values = k.to_vec();
+        values.dedup();
+        let types = table.texts("type").map_err(unread)?;
+        let (t1, p_theta) = (column("t1")?, column("p_theta")?);
+        Ok(Self { k, p_theta, types, t1, decrease: column("decrease")?, t_exit: column("t_exit")?, values })
+    }
+
+    fn rows(&self, k: f64) -> impl Iterator<Item = usize> {
+        let rows: Vec<usize> = (0..self.k.len()).filter(|i| self.k[*i] == k).collect();
+        rows.into_iter()
+    }
+
+    /// Counterexamples among the values of k, with the first one.
+    fn over_k(&self, wrong: impl Fn(f64) -> bool, example: impl Fn(f64) -> String) -> Test {
+        let found: Vec<f64> = self.values.iter().copied().filter(|k| wrong(*k)).collect();
+        Test::None {
+            counterexamples: found.len() as u64,
+            cases: self.values.len() as u64,
+            example: found.first().map_or(String::new(), |k| example(*k)),
+        }
+    }
+
+    fn shows(&self, kind: &str, k: f64) -> bool {
+        self.rows(k).any(|i| self.types[i] == kind)
+    }
+
+    fn extent(&self) -> String {
+        let (low, high) = (self.values.first().copied(), self.values.last().copied());
+        let momenta = self.k.len() / self.values.len().max(1);
+        let (low, high) = (low.unwrap_or(f64::NAN), high.unwrap_or(f64::NAN));
+        let largest = self.p_theta.iter().copied().fold(0.0, f64::max);
+        let smallest = self.p_theta.iter().copied().fold(largest, f64::min);
+        format!(
+            "Examined: {} values of k from {low:?} to {high:?} with {momenta} p_θ from {smallest:?} to {largest:?}.",
+            self.values.len()
+        )
+    }
+
+    fn monotone_claim(&self, tolerance: f64) -> Claim {
+        // What rounding leaves of a θ that never decreases: a few ε, next to a pole divided by p_θ.
+        let none = |i: usize| 64.0 * f64::EPSILON / self.p_theta[i];
+        let literally = |k: f64| self.rows(k).any(|i| self.decrease[i] <= none(i));
+        let least = |k: f64| {
+            let least = self.rows(k).map(|i| self.decrease[i]).fold(PI, f64::min);
+            format!("k = {k:?}: θ decreases by {least:e} rad or more for every p_θ of the grid")
+        };
+        Claim {
+            id: "type_i".to_owned(),
+            place: PLACE.to_owned(),
+            statement: "Type i, θ not decreasing on [0, t1], occurs for every k with 1 ≤ k ≤ k3.".to_owned(),
+            evidence: Evidence::OnlyWhen {
+                condition: format!("a total decrease of θ on [0, t1] up to {tolerance:?} rad counts as none"),
+                inside: self.over_k(|k| !self.shows("i", k), |k| format!("k = {k:?}")),
+                outside: self.over_k(|k| !literally(k), least),
+            },
+            note: format!(
+                "On the equator θ' changes sign unless sin 2θ = 0: taken literally, for k > 1 only the one p_θ with \
+                 θ = π/2 at the first return has a θ that does not decrease, and no p_θ of a grid hits it. {}",
+                self.extent()
+            ),
+        }
+    }
+
+    fn range_claim(&self, kind: &str, name: &str, from: f64) -> Claim {
+        let differs = |k: f64| self.shows(kind, k) != (k >= from);
+        Claim {
+            id: format!("type_{kind}_range"),
+            place: PLACE.to_owned(),
+            statement: format!("Type {kind} exists for {name} ≤ k ≤ k3, and not below."),
+            evidence: Evidence::Direct(self.over_k(differs, |k| format!("k = {k:?}: {}", self.shows(kind, k)))),
+            note: self.extent(),
+        }
+    }
+
+    fn exit_claim(&self) -> Claim {
+        let exits: Vec<usize> = (0..self.k.len()).filter(|i| self.t_exit[*i].is_finite()).collect();
+        let early: Vec<usize> = exits.iter().copied().filter(|i| self.t_exit[*i] <= self.t1[*i]).collect();
+        let example = early.first().map_or(String::new(), |i| {
+            let (k, p_theta, t_exit, t1) = (self.k[*i], self.p_theta[*i], self.t_exit[*i], self.t1[*i]);
+            format!("k = {k:?}, p_θ = {p_theta:?}: t̄ = {t_exit:?}, t1 = {t1:?}")
+        });
+        Claim {
+            id: "exit_after_conjugate".to_owned(),
+            place: PLACE.to_owned(),
+            statement: "The first exit from 0 ≤ θ ≤ π lies after the first conjugate time (types ii to iv).".to_owned(),
+            evidence: Evidence::Direct(Test::None {
+                counterexamples: early.len() as u64,
+                cases: exits.len() as u64,
+                example,
+            }),
+            note: "Implied by the definition of the types. For p_θ → 0 the two times meet like p_θ².".to_owned(),
+        }
+    }
+
+    fn complete_claim(&self, tolerance: f64) -> Claim {
+        let others: Vec<usize> = (0..self.k.len()).filter(|i| self.types[*i] == "none").collect();
+        let example = others.first().map_or(String::new(), |i| {
+            let (k, p_theta, decrease) = (self.k[*i], self.p_theta[*i], self.decrease[*i]);
+            format!("k = {k:?}, p_θ = {p_theta:?}: θ decreases by {decrease:e} rad, leaves at π, no self-intersection")
+        });
+        Claim {
+            id: "four_types".to_owned(),
+            place: PLACE.to_owned(),
+            statement: "Every trajectory with 1 ≤ k ≤ k3, p_θ > 0 is of one of the four types.".to_owned(),
+            evidence: Evidence::Direct(Test::None {
+                counterexamples: others.len() as u64,
+                cases: self.k.len() as u64,
+                example,
+            }),
+            note: format!(
+                "With a tolerance of {tolerance:?} rad for monotony. Between types ii and i the exit changes from 0 to \
+                 π through the pole, where θ has decreased by some 0.025 rad: with a smaller tolerance a thin fifth \
+                 type, leaving at π without self-intersection, appears. {}",
+                self.extent()
+            ),
+        }
+    }
+}
+
+/// A switch point and its error.
+fn switch(table: &Table, passage: &str, index: i64) -> Result<Option<(f64, f64)>, NodeError> {
+    let (passages, indices) = (table.texts("passage").map_err(unread)?, table.ints("index").map_err(unread)?);
+    let (k, error) = (table.f64s("k").map_err(unread)?, table.f64s("error").map_err(unread)?);
+    Ok((0..table.rows()).find(|i| passages[*i] == passage && indices[*i] == index).map(|i| (k[i], error[i])))
+}
+
+fn beginning_claim(
+    table: &Table,
+    kind: &str,
+    name: &str,
+    switch: (f64, f64),
+    smallest: f64,
+) -> Result<Option<Claim>, NodeError> {
+    let kinds = table.texts("type").map_err(unread)?;
+    let Some(row) = kinds.iter().position(|found| found == kind) else { return Ok(None) };
+    let (k, error) = (table.f64s("k_from").map_err(unread)?[row], table.f64s("error_from").map_err(unread)?[row]);
+    if table.bools("from_is_end_of_grid").map_err(unread)?[row] {
+        return Ok(None);
+    }
+    Ok(Some(Claim {
+        id: format!("type_{kind}_begins"),
+        place: PLACE.to_owned(),
+        statement: format!("Type {kind} begins at {name}."),
+        evidence: Evidence::Direct(Test::Equal {
+            printed: switch.0,
+            ours: k,
+            tolerance: error + switch.1 + smallest * smallest,
+            reason: format!(
+                "p_θ² for p_θ = {smallest:?}, by which t̄, the exit that decides, lies later than t1; and the width \
+                 of the bisection"
+            ),
+        }),
+        note: format!("{name} is computed here for the smallest p_θ of the grid, as the root in k of the closed form."),
+    }))
+}
+
+fn example_claim(params: &Params, table: &Table) -> Result<Option<Claim>, NodeError> {
+    let Example { k, p_theta, t_end } = params.example;
+    let tolerance = params.types.decrease_tolerance;
+    if t_end < PRINTED_TIME {
+        return Ok(None);
+    }
+    let visible = first_fall(table, tolerance)?.filter(|(t, _)| *t < PRINTED_TIME);
+    let note = match (first_fall(table, A_FALL)?, visible) {
+        (Some((first, little)), Some((t, fall))) => format!(
+            "θ begins to fall by {fall:.4} rad at t = {t:.6}. Literally it is not monotone from t = {first:.6} on, \
+             where it falls by {little:.1e} rad."
+        ),
+        _ => String::new(),
+    };
+    let holds = visible.is_some();
+    let example = if holds { String::new() } else { format!("no fall by more than {tolerance:?} rad begins before") };
+    Ok(Some(Claim {
+        id: "not_monotone".to_owned(),
+        place: "section 5.2".to_owned(),
+        statement: format!("For k = {k:?}, p_θ = {p_theta:?} θ is not monotone on [0, t_f], t_f > 14."),
+        evidence: Evidence::Direct(Test::None { counterexamples: u64::from(!holds), cases: 1, example }),
+        note,
+    }))
+}
+
+fn routes_agree(table: &Table) -> Result<Claim, NodeError> {
+    let (difference, allowed) = (table.f64s("t1_difference").map_err(unread)?, table.f64s("allowed").map_err(unread)?);
+    let worst = difference.iter().zip(allowed).map(|(difference, allowed)| difference / allowed);
+    Ok(Claim {
+        id: "routes_agree".to_owned(),
+        place: "all conjugate times of this experiment".to_owned(),
+        statement: "Closed form and integration give the same conjugate times.".to_owned(),
+        evidence: Evidence::Direct(Test::AtMost {
+            measured: worst.fold(0.0, f64::max),
+            tolerance: 1.0,
+            reason: "in units of what each row allows: a hundred times the accuracy asked for (1e-12), or the closed \
+                     form's own bound next to a vertical tangent"
+                .to_owned(),
+        }),
+        note: String::new(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiments::preview;
+
+    /// Oracle for the ends: k1, k̄, k2 for p_θ = 1e-4 (tests/oracle/values.toml, fig4); the others are checked in
+    /// geometry::spin.
+    #[test]
+    fn values_and_verdicts() {
+        let preview = preview::run(&EXPERIMENT, |text| text);
+        for value in &preview.findings.values {
+            println!("{:<32} {:<24?} {:.1e}", value.name, value.value, value.error);
+        }
+        for claim in &preview.findings.claims {
+            println!("{claim:?}");
+        }
+        for (name, exact) in [
+            ("type_ii_k_from", 1.060_660_173_768_559_1),
+            ("type_iii_k_from", 1.154_700_540_544_315),
+            ("type_iv_k_from", 1.250_000_002_343_75),
+        ] {
+            assert!((preview.value(name) - exact).abs() < 1e-8, "{name}: {:?}", preview.value(name));
+        }
+        for claim in &preview.findings.claims {
+            match &claim.evidence {
+                Evidence::Direct(test) => assert!(test.holds(), "{claim:?}"),
+                Evidence::OnlyWhen { inside, outside, .. } => assert!(inside.holds() && !outside.holds(), "{claim:?}"),
+                _ => panic!("{claim:?}"),
+            }
+        }
+        assert!(preview.value("largest_route_difference") <= 1e-12);
+        assert!(preview.value("largest_position_difference") <= 1e-12);
+    }
+
+    #[test]
+    fn an_effect_removed_takes_its_nodes_values_and_claims_with_it() {
+        let smaller = |text: String| text.replace("count = 23", "count = 3").replace("count = 61", "count = 4");
+        let drawn = preview::run(&EXPERIMENT, |text| smaller(text).replace("\"trajectory-types\", ", ""));
+        assert!(drawn.findings.claims.is_empty() && drawn.findings.values.len() == 1);
+        let types = preview::run(&EXPERIMENT, |text| smaller(text).replace(", \"geodesics\"", ""));
+        assert!(types.findings.values.iter().all(|value| value.name != "largest_position_difference"));
+    }
+
+    #[test]
+    fn wrong_configs_are_refused_by_key() {
+        let params = |from: &str, to: &str| {
+            let text = include_str!("../../experiments/fig6.toml").replace(from, to);
+            crate::contract::config::read::<Params>("f", &text).map_err(|error| error.to_string())
+        };
+        assert!(params("", "").is_ok());
+        for (from, to, key) in [
+            ("from = 1.0,", "from = 0.9,", "scene.metric.spin.k.from"),
+            ("from = 0.05", "from = -0.05", "scene.start.p_theta"),
+            ("decrease_tolerance = 0.03", "decrease_tolerance = 0.0", "types.decrease_tolerance"),
+            ("smallest_p_theta = 1e-4", "smallest_p_theta = 0", "types.smallest_p_theta"),
+            ("switch_points_to = 1.5", "switch_points_to = 0.5", "types.switch_points_to"),
+            ("t_end = 16.0", "t_end = -1", "example.t_end"),
+            ("\"geodesics\"", "\"cut-locus\"", "scene.effects[1]"),
+        ] {
+            let refused = params(from, to).unwrap_err();
+            assert!(refused.contains(key), "{refused}");
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Points that a trajectory on the sphere visits twice, up to its first exit from 0 ≤ θ ≤ π (section 5.2.1).
+//!
+//! In the chart (θ, φ), which is one to one there but for the poles, the trajectory is drawn as a polygon whose sides
+//! turn neither angle by more than [`LONGEST_SIDE`]; crossings of its sides are then polished by Gauss-Newton on `r(s)
+//! = r(t)` in R³, and kept only when they converge. Not guaranteed: two crossings so close to a tangency that the
+//! polygon has none.
+
+use super::theta::phi_of;
+use crate::numerics::taylor::dense::Kept;
+
+/// No side of the polygon is longer than this in either angle, radians.
+pub const LONGEST_SIDE: f64 = 0.1;
+/// Uniform pieces of time to begin with.
+const FIRST_PIECES: u32 = 40;
+/// Halvings of a piece: enough for passes at a distance of 1e-7 from a pole.
+const MOST_HALVINGS: u32 = 26;
+/// Newton steps; from a polygon's crossing three or four do.
+const MOST_STEPS: u32 = 12;
+/// Residual |r(s) − r(t)| below which a crossing counts as found.
+const RESIDUAL: f64 = 1e-13;
+
+/// One point of a trajectory in the chart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChartPoint {
+    /// The time.
+    pub t: f64,
+    /// The point on the unit sphere.
+    pub r: [f64; 3],
+    /// θ in [0, π]: only for points before the first exit.
+    pub theta: f64,
+    /// φ from the pole.
+    pub phi: f64,
+}
+
+/// A point visited twice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SelfIntersection {
+    /// First time.
+    pub s: f64,
+    /// Second time.
+    pub t: f64,
+    /// The point.
+    pub r: [f64; 3],
+}
+
+/// Position and velocity at a time of a path that holds r and h.
+fn state(path: &Kept<f64>, k: f64, t: f64) -> Option<([f64; 3], [f64; 3])> {
+    let state = path.at(t)?;
+    let &[r1, r2, r3, h1, _, h3] = state.as_slice() else { return None };
+    let (w1, w3) = (h1 / (2.0 * k * k), h3 / 2.0);
+    Some(([r1, r2, r3], [-w3 * r2, w3 * r1 - w1 * r3, w1 * r2]))
+}
+
+/// The trajectory on `[0, t_end]` as a polygon in the chart.
+///
+/// Domain: `path` holds r and h on that span, with `r3 ≥ 0` there. None when it does not.
+pub fn polygon(path: &Kept<f64>, k: f64, t_end: f64) -> Option<Vec<ChartPoint>> {
+    let point = |t: f64| {
+        let (r, _) = state(path, k, t)?;
+        // At the ends r3 is a rounding error of either sign.
+        Some(ChartPoint { t, r, theta: libm::atan2(r[2].max(0.0), r[0]), phi: phi_of(r) })
+    };
+    let mut points = vec![point(0.0)?];
+    for piece in 1..=FIRST_PIECES {
+        let mut waiting = vec![(point(t_end * f64::from(piece) / f64::from(FIRST_PIECES))?, 0)];
+        while let Some(&(next, halvings)) = waiting.last() {
+            let last = points[points.len() - 1];
+            let long = (next.theta - last.theta).abs() > LONGEST_SIDE || (next.phi - last.phi).abs() > LONGEST_SIDE;
+            if long && halvings < MOST_HALVINGS {
+                waiting.pop();
+                waiting.push((next, halvings + 1));
+                waiting.push((point(0.5 * (last.t + next.t))?, halvings + 1));
+            } else {
+                points.push(next);
+                waiting.pop();
+            }
+        }
+    }
+    Some(points)
+}
+
+/// The self-intersections of a trajectory, in the order of their second times.
+///
+/// Domain: as for [`polygon`], whose result `points` is.
+pub fn self_intersections(path: &Kept<f64>, k: f64, points: &[ChartPoint]) -> Vec<SelfIntersection> {
+    let mut found: Vec<SelfIntersection> = Vec::new();
+    for (j, second) in points.windows(2).enumerate() {
+        let (c, d) = (second[0], second[1]);
+        for first in points.windows(2).take(j.saturating_sub(1)) {
+            let (a, b) = (first[0], first[1]);
+            let Some((u, v)) = crossing((a, b), (c, d)) else { continue };
+            let guess = (a.t + u * (b.t - a.t), c.t + v * (d.t - c.t));
+            let Some(polished) = polish(path, k, guess) else { continue };
+            // A crossing at a corner of the polygon is seen by two pairs of sides.
+            let apart = |other: &SelfIntersection| (other.s - polished.s).abs() + (other.t - polished.t).abs() > 1e-6;
+            if found.iter().all(apart) {
+                found.push(polished);
+            }
+        }
+    }
+    found
+}
+
+/// Where on two sides, as fractions, they cross.
+fn crossing((a, b): (ChartPoint, ChartPoint), (c, d): (ChartPoint, ChartPoint)) -> Option<(f64, f64)> {
+    // Boxes that are apart first: nearly all pairs end here.
+    if a.phi.max(b.phi) < c.phi.min(d.phi) || c.phi.max(d.phi) < a.phi.min(b.phi) {
+        return None;
+    }
+    if a.theta.max(b.theta) < c.theta.min(d.theta) || c.theta.max(d.theta) < a.theta.min(b.theta) {
+        return None;
+    }
+    let (bx, by) = (b.theta - a.theta, b.phi - a.phi);
+    let (dx, dy) = (d.theta - c.theta, d.phi - c.phi);
+    let (cx, cy) = (c.theta - a.theta, c.phi - a.phi);
+    let determinant = bx * dy - by * dx;
+    if determinant == 0.0 {
+        return None;
+    }
+    let (u, v) = ((cx * dy - cy * dx) / determinant, (cx * by - cy * bx) / determinant);
+    ((0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v)).then_some((u, v))
+}
+
+/// Newton's iteration on `r(s) = r(t)`: the two arcs as straight lines in their common tangent plane.
+///
+/// By cross products, since the arcs may cross at an angle of 1e-7, of which normal equations would leave nothing.
+fn polish(path: &Kept<f64>, k: f64, (mut s, mut t): (f64, f64)) -> Option<SelfIntersection> {
+    let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let cross =
+        |a: &[f64; 3], b: &[f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    for _ in 0..MOST_STEPS {
+        let ((r, u), (q, v)) = (state(path, k, s)?, state(path, k, t)?);
+        let gap = [q[0] - r[0], q[1] - r[1], q[2] - r[2]];
+        if dot(&gap, &gap) <= RESIDUAL * RESIDUAL {
+            return (t > s).then_some(SelfIntersection { s, t, r });
+        }
+        // gap = u ds − v dt.
+        let normal = cross(&u, &v);
+        let square = dot(&normal, &normal);
+        if square <= 0.0 {
+            return None;
+        }
+        s += dot(&cross(&gap, &v), &normal) / square;
+        t += dot(&cross(&gap, &u), &normal) / square;
+        if !(s >= 0.0 && t > s) {
+            return None;
+        }
+    }
+    None
+}
