@@ -14,4 +14,4 @@ macro_rules! experiments {
     };
 }
 
-experiments! { fig1 fig2 remark_3_25 fig3 }
+experiments! { fig1 fig2 theorem_3_9 remark_3_25 fig3 }

@@ -66,7 +66,7 @@ impl Compute for Curvature {
     }
 
     fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        if self.points < 3 || self.points % 2 == 0 {
+        if self.points < 3 || self.points.is_multiple_of(2) {
             return Err(NodeError::new(format!("points = {}: an odd number of at least 3 is needed", self.points)));
         }
         let metric = self.body.metric::<f64>()?;
