@@ -290,6 +290,23 @@ impl Phi0Family {
     }
 }
 
+/// `start = { xi1 = [0.4, 0.9], starts = 71 }`: oscillating extremals by `ξ1`, each from several phases.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OscillatingStart {
+    /// `ξ1`, between 0 and 1: a number, a list or a range; one node a value.
+    pub xi1: Sweep,
+    /// Number of starts of each, 1 to 9999.
+    pub starts: usize,
+}
+
+impl Validate for OscillatingStart {
+    fn validate(&self) -> Result<(), Invalid> {
+        self.xi1.validate_each("scene.start.xi1", "0 < xi1 < 1 (oscillating)", |xi1| xi1 > 0.0 && xi1 < 1.0)?;
+        Invalid::unless((1..=9999).contains(&self.starts), "scene.start.starts", self.starts, "1 to 9999")
+    }
+}
+
 impl Inertia {
     /// Which config keys the leaves below `body` of a node come from.
     pub fn origins(metric: &str) -> Vec<(&'static str, String)> {

@@ -567,7 +567,7 @@ fn locus_claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeErro
         let side = if phi0 == 0.0 { &mut on_equator } else { &mut below };
         if phi0 <= 0.0 {
             side.1 += ascending.len();
-            side.0.extend(ascending.filter(|row| locus.phi[*row] >= 0.0).map(|row| at(row)));
+            side.0.extend(ascending.filter(|row| locus.phi[*row] >= 0.0).map(at));
         }
     }
     let theorem = "Theorem 3.24";
@@ -715,9 +715,6 @@ mod tests {
     #[test]
     fn values_and_verdicts() {
         let preview = preview::run(&EXPERIMENT, |text| text);
-        for value in &preview.findings.values {
-            println!("{} = {:?} ± {:e}", value.name, value.value, value.error);
-        }
         for claim in &preview.findings.claims {
             let good = match &claim.evidence {
                 Evidence::Direct(test) => test.holds(),
@@ -725,6 +722,50 @@ mod tests {
                 _ => false,
             };
             assert!(good, "{claim:?}");
+        }
+        for (name, exact) in CUSP {
+            let found = preview.findings.values.iter().find(|value| value.name == name).unwrap();
+            assert!((found.value - exact).abs() <= found.error, "{name}: {:?} is not {exact:?}", found.value);
+            assert!(found.error <= 1e-14 * exact, "{name}: {:e}", found.error);
+        }
+        assert!(preview.value("largest_route_difference") <= 1e-12);
+    }
+
+    /// Oracle: mpmath 1.3.0, 50 digits (see `tests/oracle/values.toml`).
+    const CUSP: [(&str, f64); 4] = [
+        ("cusp_time_1", 4.772_421_833_446_835_9),
+        ("cusp_theta_1", 5.844_999_164_631_256_6),
+        ("cusp_time_2", 6.617369457795323609),
+        ("cusp_theta_2", 8.2143097847709768694),
+    ];
+
+    /// Each effect alone gives its own nodes, claims and picture, and nothing of the others.
+    #[test]
+    fn effects_are_followed() {
+        let all = "[\"conjugate-locus\", \"cut-locus\", \"wave-front\", \"geodesics\"]";
+        for (effect, claims) in [("conjugate-locus", 6), ("cut-locus", 2), ("wave-front", 1), ("geodesics", 0)] {
+            let preview = preview::run(&EXPERIMENT, |text| {
+                let text = text.replace(all, &format!("[\"{effect}\"]"));
+                text.replace("cusp = 40\ntail = 44", "cusp = 4\ntail = 6")
+            });
+            assert_eq!(preview.findings.claims.len(), claims, "{effect}");
+        }
+    }
+
+    #[test]
+    fn wrong_configs_are_refused_by_key() {
+        for (from, to, key) in [
+            ("phi0 = [0.0, -0.75]", "phi0 = [0.0, -1.6]", "scene.start.phi0[1]"),
+            ("smallest = 1e-8", "smallest = 0.5", "spacing.smallest"),
+            ("t = [3.0,", "t = [-3.0,", "wave_front.t[0]"),
+            ("turns = 3.5", "turns = 0.0", "picture.turns"),
+            ("\"cut-locus\"", "\"attitude\"", "scene.effects[1]"),
+        ] {
+            let text = include_str!("../../experiments/fig3.toml");
+            assert!(text.contains(from));
+            let read = crate::contract::config::read::<Params>("f", &text.replace(from, to));
+            let refused = read.unwrap_err().to_string();
+            assert!(refused.contains(key), "{refused}");
         }
     }
 }

@@ -58,7 +58,7 @@ pub fn largest_route_difference(second_routes: &[&Table]) -> Result<NamedValue, 
         meaning: format!(
             "largest relative difference of a conjugate time between closed form and integration, {rows} rows"
         ),
-        route: "closed form against power-series integration (double-double near the separatrix)".to_owned(),
+        route: "closed form against power-series integration (double-double where f64 loses too much)".to_owned(),
         // The differences of nearby numbers are exact; their own rounding is that of the two routes.
         error: 4.0 * f64::EPSILON,
     })
@@ -78,7 +78,7 @@ pub fn routes_agree(second_routes: &[&Table]) -> Result<Claim, NodeError> {
         evidence: Evidence::Direct(Test::AtMost {
             measured,
             tolerance: allowed,
-            reason: "what integration gives: f64 where the flow loses little, double-double near the separatrix"
+            reason: "what integration gives: f64, and double-double where f64 loses more than a tenth of this"
                 .to_owned(),
         }),
         note: String::new(),

@@ -45,13 +45,14 @@ pub struct ClairautStart {
 }
 
 impl ClairautStart {
-    /// The extremal that starts there.
+    /// The extremal that starts there, the start taken as exact.
     ///
     /// # Errors
     /// No such start.
-    pub fn extremal(&self, metric: &Metric) -> Result<Extremal, NodeError> {
+    pub fn extremal<S: Real>(&self, metric: &Metric<S>) -> Result<Extremal<S>, NodeError> {
         let branch = if self.branch < 0 { Branch::Descending } else { Branch::Ascending };
-        let start = Start::Darboux { phi0: self.phi0, clairaut: Clairaut::Delta(self.delta), branch };
+        let clairaut = Clairaut::Delta(S::from_f64(self.delta));
+        let start = Start::Darboux { phi0: S::from_f64(self.phi0), clairaut, branch };
         Extremal::new(metric, start).map_err(failed(&self.to_string()))
     }
 
