@@ -17,4 +17,4 @@ macro_rules! experiments {
     };
 }
 
-experiments! { fig1 fig2 remark_3_25 fig3 fig4 fig7 }
+experiments! { fig1 fig2 remark_3_25 fig3 fig4 fig5 fig7 fig8 }

@@ -6,12 +6,14 @@
 use super::nodes::{Nodes, TableRef};
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
+use crate::contract::config::Invalid;
 use crate::contract::node::NodeError;
 use crate::contract::sweep::Sweep;
 use crate::contract::value::NamedValue;
 use crate::effects::spin::by_integration::{self, ConjugateLocusByIntegration};
 use crate::effects::spin::conjugate_locus::ConjugateLocus;
 use crate::effects::spin::contact::contact_coefficient;
+use crate::effects::spin::double_points::DoublePoints;
 use crate::effects::spin::momenta::Momenta;
 use crate::plot::axis::Axis;
 use crate::plot::mark::Curve;
@@ -24,6 +26,10 @@ use std::f64::consts::{FRAC_PI_2, PI};
 pub const LOCUS: &str = "conjugate-locus";
 /// The table of its second route.
 pub const BY_INTEGRATION: &str = "conjugate-locus-by-integration";
+/// The table of its double points.
+pub const DOUBLE_POINTS: &str = "double-points";
+/// The table of their second route.
+pub const DOUBLE_POINTS_BY_INTEGRATION: &str = "double-points-by-integration";
 
 /// A table that can't be read the way an experiment reads it.
 pub fn unread(error: TableError) -> NodeError {
@@ -61,6 +67,133 @@ pub fn ask_for_branch(
     let second = ConjugateLocusByIntegration::new(k, accuracy);
     nodes.add(BY_INTEGRATION, &axes, second, &[(by_integration::INPUT, &locus)], &origins[..1])?;
     Ok(locus)
+}
+
+/// Refuses panels whose values of k are not those of the scene: no panel, more than `most`, none or more than four values in one, a value twice or one
+/// that is not in the scene; and a value of the scene that no panel shows.
+///
+/// # Errors
+/// The first of these.
+pub fn validate_panels(scene: &Sweep, panels: &[&Vec<f64>], most: usize) -> Result<(), Invalid> {
+    let known = scene.values();
+    let accepted = format!("1 to {most} tables [[panels]]");
+    Invalid::unless((1..=most).contains(&panels.len()), "panels", format!("{} panels", panels.len()), accepted)?;
+    for (i, group) in panels.iter().enumerate() {
+        let key = format!("panels[{i}].k");
+        Invalid::unless((1..=4).contains(&group.len()), &key, format!("{group:?}"), "a list of 1 to 4 values")?;
+        for (j, k) in group.iter().enumerate() {
+            let accepted = format!("a value of scene.metric.spin.k: {known:?}");
+            Invalid::number(known.contains(k), format!("{key}[{j}]"), *k, accepted)?;
+            Invalid::number(!group[..j].contains(k), format!("{key}[{j}]"), *k, "each value once in a panel")?;
+        }
+    }
+    for (i, k) in known.iter().enumerate() {
+        let shown = panels.iter().any(|group| group.contains(k));
+        Invalid::number(
+            shown,
+            scene.key_of("scene.metric.spin.k", i),
+            *k,
+            "values that a panel shows: add it to a panel's k",
+        )?;
+    }
+    Ok(())
+}
+
+/// Asks for the double points of the branch of one k and their second route.
+///
+/// # Errors
+/// Parameters that can't be written as a manifest.
+pub fn ask_for_double_points(
+    nodes: &mut Nodes,
+    (sweep, index): (&Sweep, usize),
+    p_theta: Momenta,
+    accuracy: Accuracy,
+) -> Result<(), NodeError> {
+    let k = sweep.values()[index];
+    let axes = [("k", format!("{k:?}"))];
+    let origins = origins(sweep, index);
+    let points = nodes.add(DOUBLE_POINTS, &axes, DoublePoints { k, p_theta }, &[], &origins)?;
+    let second = ConjugateLocusByIntegration::new(k, accuracy);
+    nodes.add(DOUBLE_POINTS_BY_INTEGRATION, &axes, second, &[(by_integration::INPUT, &points)], &origins[..1])?;
+    Ok(())
+}
+
+/// A double point as its table holds it.
+pub struct DoublePoint {
+    /// The ratio of the couplings.
+    pub k: f64,
+    /// The two momenta with bounds on their relative errors, the smaller first.
+    pub p_theta: [(f64, f64); 2],
+    /// Where it stands in the chart.
+    pub place: (f64, f64),
+    /// Where it stands on the sphere, the pole `r2 = 1` up.
+    pub on_sphere: [f64; 3],
+    /// A bound on the error of its place.
+    pub error: f64,
+}
+
+/// The double points of one k.
+///
+/// # Errors
+/// No such table, or one of another form.
+pub fn double_points(tables: &Tables, k: f64) -> Result<Vec<DoublePoint>, NodeError> {
+    let table = tables.get(&name_of(DOUBLE_POINTS, k)).map_err(unread)?;
+    let column = |name: &str| table.f64s(name).map_err(unread);
+    let (p, p_error, theta, phi) = (column("p_theta")?, column("p_theta_error")?, column("theta")?, column("phi")?);
+    let (r1, r2, r3, error) = (column("r1")?, column("r2")?, column("r3")?, column("place_error")?);
+    let at = |row: usize| DoublePoint {
+        k,
+        p_theta: [(p[row], p_error[row]), (p[row + 1], p_error[row + 1])],
+        place: (theta[row], phi[row]),
+        on_sphere: [r1[row], r3[row], r2[row]],
+        error: error[row],
+    };
+    Ok((0..table.rows() / 2).map(|i| at(2 * i)).collect())
+}
+
+/// Place and momenta of double points, as named values.
+pub fn double_point_values(points: &[DoublePoint]) -> Vec<NamedValue> {
+    let mut values = Vec::new();
+    for (i, point) in points.iter().enumerate() {
+        // Several of one k are told apart by their number.
+        let rank = points[..i].iter().filter(|other| other.k == point.k).count();
+        let number = if rank > 0 { format!("_{}", rank + 1) } else { String::new() };
+        let [(p_a, a), (p_b, b)] = point.p_theta;
+        for (name, value, unit, error, meaning) in [
+            ("p_a", p_a, "1", a * p_a, "smaller p_theta of the double point of the branch"),
+            ("p_b", p_b, "1", b * p_b, "larger p_theta of the double point of the branch"),
+            ("theta", point.place.0, "rad", point.error, "θ of the double point of the branch"),
+            ("phi", point.place.1, "rad", point.error, "φ of the double point of the branch"),
+        ] {
+            values.push(NamedValue {
+                name: format!("double_point{number}_{name}_k={:?}", point.k),
+                value,
+                unit: unit.to_owned(),
+                meaning: format!("{meaning}, k = {:?}", point.k),
+                route: "Newton on two momenta with equal conjugate points (closed form); integration as second route"
+                    .to_owned(),
+                error,
+            });
+        }
+    }
+    values
+}
+
+/// The switches of section 5.2.1 in the limit `p_θ → 0`, where they are elementary.
+pub struct Switches {
+    /// The cusp passes the pole φ = π.
+    pub k1: f64,
+    /// The cusp passes the equator.
+    pub k_bar: f64,
+    /// The cusp passes the pole φ = 0.
+    pub k2: f64,
+    /// The cusp passes the pole φ = π again.
+    pub k3: f64,
+}
+
+/// The switches: `t1` is 3π/2, 2π, 5π/2 and 7π/2, and `w tan t1 = tan(w t1)` with `w² = 1 − 1/k²`.
+pub fn switches() -> Switches {
+    Switches { k1: 3.0 / 8.0_f64.sqrt(), k_bar: 2.0 / 3.0_f64.sqrt(), k2: 1.25, k3: 7.0 / 24.0_f64.sqrt() }
 }
 
 /// The columns of a branch, in order of ascending `p_θ`, `p_θ = 0` first.
@@ -226,7 +359,10 @@ pub fn cusp_values(branches: &[Branch<'_>]) -> Vec<NamedValue> {
 }
 
 fn second_routes<'a>(tables: &'a Tables) -> Vec<&'a Table> {
-    tables.starting_with(BY_INTEGRATION).map(|(_, table)| table).collect()
+    [BY_INTEGRATION, DOUBLE_POINTS_BY_INTEGRATION]
+        .into_iter()
+        .flat_map(|name| tables.starting_with(name).map(|(_, table)| table))
+        .collect()
 }
 
 fn rows_of<'a>(table: &'a Table) -> Result<impl Iterator<Item = (f64, f64)> + 'a, NodeError> {

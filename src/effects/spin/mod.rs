@@ -7,4 +7,5 @@ pub mod conjugate_locus;
 pub mod contact;
 pub mod double_points;
 pub mod geodesics;
+pub mod loops;
 pub mod momenta;
