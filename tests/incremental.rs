@@ -20,9 +20,9 @@ use polhode::pipeline::graph::Graph;
 use polhode::pipeline::reason::Reason;
 use polhode::pipeline::report::Status;
 use polhode::pipeline::run::run;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 use support::{Report, Shared, Workspace, all_experiments, files, repository};
 
 /// Figures 7 and 8, computed once, 7 before 8; and what the run for Figure 8 reported.
@@ -219,8 +219,13 @@ fn digest_of(path: &str, edit: impl Fn(String) -> String) -> String {
 }
 
 fn with_one_more_token(path: &str) -> String {
+    static KNOWN: Mutex<BTreeMap<String, String>> = Mutex::new(BTreeMap::new());
+    if let Some(known) = KNOWN.lock().expect("unpoisoned").get(path) {
+        return known.clone();
+    }
     let edited = digest_of(path, |text| text + "\nconst ONE_MORE: u8 = 1;\n");
     assert_ne!(edited, digest_of(path, |text| text), "{path}");
+    KNOWN.lock().expect("unpoisoned").insert(path.to_owned(), edited.clone());
     edited
 }
 
@@ -232,7 +237,6 @@ fn what_is_no_code_does_not_count() {
         let as_it_is = digest_of(&path, |text| text);
         let noise = "\n\n// A remark.\n/* Another. */\n#[cfg(test)]\nmod more_tests {\n    #[test]\n    fn f() {}\n}\n";
         assert_eq!(digest_of(&path, |text| text + noise), as_it_is, "{path}");
-        assert_eq!(digest_of(&path, |text| text.replace('\n', "\n\n")).is_empty(), false);
         with_one_more_token(&path);
         seen += 1;
     }
@@ -247,13 +251,16 @@ fn a_change_to_the_plot_room_runs_only_pictures() {
     let session = session(&workspace);
     let plot = |kind: &Kind| with_room_edited(kind, "plot");
     let graph = Graph::join_with(plans(&session), &plot).expect("sound");
-    let mut pictures = 0;
+    let (mut pictures, mut kinds) = (0, BTreeSet::new());
     for (old, new) in session.graph.nodes.iter().zip(&graph.nodes) {
         assert_eq!(old.node.address, new.node.address);
         let is_picture = old.node.address.node == "picture";
         pictures += usize::from(is_picture);
         assert_eq!(old.code.digest != new.code.digest, is_picture, "{}", old.node.address);
         let kind = old.node.compute.kind();
+        if !kinds.insert(kind.name) {
+            continue;
+        }
         let has = |room: &str| old.code.lines.iter().any(|(name, _)| name.starts_with(&format!("{room}/")));
         // The nodes that compute: by effect, on numerics; neither the command nor the experiments can make them stale.
         if !["picture", "findings"].contains(&old.node.address.node.as_str())
