@@ -261,18 +261,16 @@ impl Definition for Fig5 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::spin_branches::tests::{assert_claims, assert_references};
     use super::*;
-    use crate::contract::claim::Evidence;
     use crate::experiments::preview;
 
+    /// Oracle: mpmath, tests/oracle/values.toml.
     #[test]
     fn values_and_claims() {
         let preview = preview::run(&EXPERIMENT, |text| text);
-        for claim in &preview.findings.claims {
-            assert!(matches!(&claim.evidence, Evidence::Direct(test) if test.holds()), "{claim:?}");
-        }
-        for value in &preview.findings.values {
-            println!("{} = {:?} ± {:e}", value.name, value.value, value.error);
-        }
+        assert_references(EXPERIMENT.kind, &preview);
+        let claims = ["half_plane", "loop", "ends_on_meridian", "loops_shrink", "contact_of_order_two", "routes_agree"];
+        assert_claims(&preview, &claims);
     }
 }

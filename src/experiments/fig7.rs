@@ -245,21 +245,36 @@ impl Definition for Fig7 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::spin_branches::tests::{assert_claims, assert_references};
     use super::*;
-    use crate::contract::claim::{Evidence, Test};
     use crate::experiments::preview;
 
+    /// Oracle: mpmath, tests/oracle/values.toml.
     #[test]
     fn values_and_claims() {
         let preview = preview::run(&EXPERIMENT, |text| text);
-        for claim in &preview.findings.claims {
-            println!("{claim:#?}");
-            assert!(matches!(&claim.evidence, Evidence::Direct(test) if test.holds()), "{claim:?}");
+        assert_references(EXPERIMENT.kind, &preview);
+        let claims = ["theta_not_monotone", "cusp_stays_beyond_equator", "contact_of_order_two", "routes_agree"];
+        assert_claims(&preview, &claims);
+    }
+
+    #[test]
+    fn an_effect_left_out_takes_its_findings_along() {
+        let without = preview::run(&EXPERIMENT, |text| text.replace("\"geodesics\", ", "").replace("[0.8, 0.5, 0.2, 0.1]", "0.8"));
+        assert_claims(&without, &["cusp_stays_beyond_equator", "contact_of_order_two", "routes_agree"]);
+        let without = preview::run(&EXPERIMENT, |text| text.replace(", \"conjugate-locus\"]", "]").replace("[0.8, 0.5, 0.2, 0.1]", "0.8"));
+        assert_claims(&without, &["theta_not_monotone"]);
+        assert!(without.findings.values.is_empty());
+    }
+
+    /// Oracle: the closed form at every sample of every extremal; the ends are conjugate points of the branch.
+    #[test]
+    fn trajectories_are_accurate() {
+        let preview = preview::run(&EXPERIMENT, |text| text);
+        for k in ["0.8", "0.5", "0.2", "0.1"] {
+            let table = preview.table(&format!("geodesics/k={k}"));
+            assert_eq!(table.ints("index").unwrap().last(), Some(&14));
+            assert!(table.f64s("difference").unwrap().iter().all(|difference| *difference < 1e-11));
         }
-        for value in &preview.findings.values {
-            println!("{} = {:?} ± {:e}", value.name, value.value, value.error);
-        }
-        assert!(preview.value("largest_route_difference") < 1e-13);
-        let _ = Test::holds;
     }
 }

@@ -249,22 +249,16 @@ impl Definition for Fig8 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::spin_branches::tests::{assert_claims, assert_references};
     use super::*;
     use crate::experiments::preview;
 
+    /// Oracle: mpmath, tests/oracle/values.toml.
     #[test]
     fn values_and_claims() {
         let preview = preview::run(&EXPERIMENT, |text| text);
-        for claim in &preview.findings.claims {
-            let holds = match &claim.evidence {
-                Evidence::Direct(test) => test.holds(),
-                Evidence::Slip { printed, corrected, .. } => !printed.holds() && corrected.holds(),
-                _ => false,
-            };
-            assert!(holds, "{claim:?}");
-        }
-        for value in &preview.findings.values {
-            println!("{} = {:?} ± {:e}", value.name, value.value, value.error);
-        }
+        assert_references(EXPERIMENT.kind, &preview);
+        let claims = ["cusp_stays_beyond_equator", "pole_then_equator", "first_pole", "self_intersections", "contact_of_order_two", "routes_agree"];
+        assert_claims(&preview, &claims);
     }
 }

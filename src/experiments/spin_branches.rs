@@ -307,14 +307,17 @@ pub fn cusp_inset(branch: &Branch<'_>, place: Place, size: (f64, f64)) -> Inset 
 /// The largest number of one digit that is not above `x > 0`, and how it is written.
 fn round_below(x: f64) -> (f64, String) {
     let exponent = libm::log10(x).floor();
-    let digit = (x / libm::exp10(exponent)).floor().clamp(1.0, 9.0);
+    // Powers of ten with positive exponents are exact, and so the quotient is the float that a reader would write.
+    let scaled =
+        |digit: f64| if exponent < 0.0 { digit / libm::exp10(-exponent) } else { digit * libm::exp10(exponent) };
+    let digit = (1..=9).rev().map(f64::from).find(|digit| scaled(*digit) <= x).unwrap_or(1.0);
     let text = if exponent >= -2.0 {
-        format!("{}", digit * libm::exp10(exponent))
+        format!("{}", scaled(digit))
     } else {
         let power = format!("10^{{−{}}}", -exponent);
         if digit > 1.0 { format!("{digit}·{power}") } else { power }
     };
-    (digit * libm::exp10(exponent), text)
+    (scaled(digit), text)
 }
 
 /// A curve of the chart in the other half, `p_φ = +2`.
@@ -358,14 +361,14 @@ pub fn cusp_values(branches: &[Branch<'_>]) -> Vec<NamedValue> {
         .collect()
 }
 
-fn second_routes<'a>(tables: &'a Tables) -> Vec<&'a Table> {
+fn second_routes(tables: &Tables) -> Vec<&Table> {
     [BY_INTEGRATION, DOUBLE_POINTS_BY_INTEGRATION]
         .into_iter()
         .flat_map(|name| tables.starting_with(name).map(|(_, table)| table))
         .collect()
 }
 
-fn rows_of<'a>(table: &'a Table) -> Result<impl Iterator<Item = (f64, f64)> + 'a, NodeError> {
+fn rows_of(table: &Table) -> Result<impl Iterator<Item = (f64, f64)>, NodeError> {
     let column = |name: &str| table.f64s(name).map_err(unread);
     Ok(column("t1_difference")?.iter().copied().zip(column("allowed")?.iter().copied()))
 }
@@ -464,5 +467,132 @@ pub fn no_counterexample(
             example: counterexamples.first().map_or(String::new(), |case| (*case).clone()),
         }),
         note: note.to_owned(),
+    }
+}
+
+#[cfg(test)]
+pub mod tests {
+    use super::*;
+    use crate::contract::claim::Evidence;
+    use crate::contract::plan::{ConfigSource, Plan};
+    use crate::experiments::definition::Experiment;
+    use crate::experiments::preview::Preview;
+    use crate::experiments::{fig5, fig7, fig8};
+
+    /// Every value with a reference is within its own error bound of it, and all have one but the difference of the routes.
+    pub fn assert_references(id: &str, preview: &Preview) {
+        let text = include_str!("../../tests/oracle/values.toml");
+        let references: toml::Table = text.parse().unwrap();
+        let of_figure = references[id].as_table().unwrap();
+        for value in &preview.findings.values {
+            if value.name == "largest_route_difference" {
+                assert!(value.value <= 1e-12, "{}", value.value);
+                continue;
+            }
+            let exact: f64 = of_figure[&value.name]["value"].as_str().unwrap().parse().unwrap();
+            assert!(
+                (value.value - exact).abs() <= value.error,
+                "{}: {:?} {exact:?} ± {:e}",
+                value.name,
+                value.value,
+                value.error
+            );
+            assert!(value.error < 1e-10, "{}: {:e}", value.name, value.error);
+        }
+    }
+
+    /// Each claim holds: directly, or after the correction that it states.
+    pub fn assert_claims(preview: &Preview, ids: &[&str]) {
+        let found: Vec<&str> = preview.findings.claims.iter().map(|claim| claim.id.as_str()).collect();
+        assert_eq!(found, ids);
+        for claim in &preview.findings.claims {
+            let holds = match &claim.evidence {
+                Evidence::Direct(test) => test.holds(),
+                Evidence::Slip { printed, corrected, .. } => !printed.holds() && corrected.holds(),
+                _ => false,
+            };
+            assert!(holds, "{claim:?}");
+        }
+    }
+
+    fn config(experiment: &Experiment) -> String {
+        let file = format!("{}/experiments/{}.toml", env!("CARGO_MANIFEST_DIR"), experiment.kind);
+        std::fs::read_to_string(file).unwrap()
+    }
+
+    fn plan(experiment: &Experiment, text: String) -> Result<Plan, String> {
+        let source = ConfigSource { file: "f".to_owned(), text };
+        experiment.plan(experiment.kind, &source, None).map(|planned| planned.plan).map_err(|error| error.to_string())
+    }
+
+    /// Kind and parameters of the nodes of one k.
+    fn nodes_of(plan: &Plan, k: &str, name: &str) -> Vec<String> {
+        let named = plan.nodes.iter().filter(|node| node.address.node.starts_with(name));
+        let of_k = named.filter(|node| node.address.axes == [("k".to_owned(), k.to_owned())]);
+        of_k.map(|node| format!("{} {:?}", node.compute.kind().name, node.params)).collect()
+    }
+
+    #[test]
+    fn equal_work_is_one_node_in_all_figures() {
+        let [fig5, fig7, fig8] = [&fig5::EXPERIMENT, &fig7::EXPERIMENT, &fig8::EXPERIMENT]
+            .map(|experiment| plan(experiment, config(experiment)).unwrap());
+        assert_eq!(nodes_of(&fig7, "0.8", LOCUS).len(), 2);
+        assert_eq!(nodes_of(&fig7, "0.8", LOCUS), nodes_of(&fig8, "0.8", LOCUS));
+        assert_eq!(nodes_of(&fig5, "1.0", LOCUS), nodes_of(&fig8, "1.0", LOCUS));
+        assert_eq!(nodes_of(&fig5, "1.0", DOUBLE_POINTS), nodes_of(&fig8, "1.0", DOUBLE_POINTS));
+        // Another way to write a number is no other work.
+        let same = plan(&fig7::EXPERIMENT, config(&fig7::EXPERIMENT).replace("[0.8, 0.5,", "[0.80, 5e-1,")).unwrap();
+        for k in ["0.8", "0.5"] {
+            assert_eq!(nodes_of(&fig7, k, ""), nodes_of(&same, k, ""));
+        }
+    }
+
+    #[test]
+    fn only_the_listed_effects_have_nodes() {
+        let without = |effects: &str| {
+            let text = config(&fig7::EXPERIMENT).replace("[\"geodesics\", \"conjugate-locus\"]", effects);
+            let plan = plan(&fig7::EXPERIMENT, text).unwrap();
+            let mut names: Vec<String> = plan.nodes.iter().map(|node| node.address.node.clone()).collect();
+            names.sort();
+            names.dedup();
+            names
+        };
+        assert_eq!(without("[\"geodesics\"]"), ["findings", "geodesics", "picture"]);
+        assert_eq!(without("[\"conjugate-locus\"]"), ["conjugate-locus", BY_INTEGRATION, "findings", "picture"]);
+    }
+
+    #[test]
+    fn wrong_configs_are_refused_by_key() {
+        for (experiment, from, to, key) in [
+            (&fig7::EXPERIMENT, "0.1] }", "1.1] }", "scene.metric.spin.k[3]"),
+            (&fig7::EXPERIMENT, "0.1] }", "-0.1] }", "scene.metric.spin.k[3]"),
+            (&fig7::EXPERIMENT, "from = 1e-9", "from = 0.0", "scene.start.p_theta.from"),
+            (&fig7::EXPERIMENT, "to = 1e4", "to = 1.0", "scene.start.p_theta.to"),
+            (&fig7::EXPERIMENT, "step = 0.1 ", "step = 1.0 ", "scene.start.p_theta.step"),
+            (&fig7::EXPERIMENT, "step = 0.15", "step = nan", "trajectories.step"),
+            (&fig7::EXPERIMENT, "count = 15", "count = 0", "trajectories.count"),
+            (&fig7::EXPERIMENT, "count = 15", "cuont = 15", "cuont"),
+            (&fig8::EXPERIMENT, "k = [1.0, 1.18]", "k = [1.0, 1.19]", "panels[1].k[1]"),
+            (&fig8::EXPERIMENT, "k = [1.0, 1.18]", "k = [1.0]", "scene.metric.spin.k[3]"),
+            (&fig8::EXPERIMENT, "[\"conjugate-locus\"]", "[\"wave-front\"]", "scene.effects[0]"),
+            (&fig8::EXPERIMENT, "latitude = -35.0", "latitude = -135.0", "panels[0].latitude"),
+            (&fig5::EXPERIMENT, "[1.0, 1.05, 1.1, ", "[0.9, 1.05, 1.1, ", "scene.metric.spin.k[0]"),
+            (&fig5::EXPERIMENT, "size = [0.5, 0.5]", "size = [0.5, 1.5]", "panels[0].inset.size[1]"),
+            (&fig5::EXPERIMENT, "to = 1.425", "to = 0.5", "loops.k.to"),
+        ] {
+            let text = config(experiment);
+            assert!(text.contains(from), "{from}");
+            let refused = plan(experiment, text.replacen(from, to, 1)).unwrap_err();
+            assert!(refused.contains(key), "{key} in {refused}");
+        }
+    }
+
+    #[test]
+    fn round_numbers_below() {
+        assert_eq!(round_below(0.37), (0.3, "0.3".to_owned()));
+        assert_eq!(round_below(0.3), (0.3, "0.3".to_owned()));
+        assert_eq!(round_below(47.0), (40.0, "40".to_owned()));
+        assert_eq!(round_below(2.4e-7).1, "2·10^{−7}");
+        assert_eq!(round_below(1.4e-7).1, "10^{−7}");
     }
 }

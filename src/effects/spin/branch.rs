@@ -144,7 +144,7 @@ mod tests {
         for k in [0.1, 0.5, 0.8, 1.0, 1.1, 1.2, 1.3, 1.4] {
             let (branch, _) = sample(k, &MOMENTA).unwrap();
             println!("k = {k}: {} rows", branch.len());
-            assert!((60..300).contains(&branch.len()));
+            assert!((60..400).contains(&branch.len()));
             for pair in branch.windows(2) {
                 let (left, right) = (place(&pair[0].point), place(&pair[1].point));
                 assert!(!far(&left, &right, MOMENTA.step), "k = {k}, p = {}", pair[0].p_theta);
