@@ -19,8 +19,8 @@ use super::lift::{ConjugateScalar, LiftError, Lifted, LiftedState, posed};
 use crate::numerics::counts::Work;
 use crate::numerics::real::Real;
 use crate::numerics::taylor::dense::Kept;
-use crate::numerics::taylor::events::{Component, EventFunction, EventRoot, Events};
-use crate::numerics::taylor::flow::{Columns, Elements, Flow, Joined, Series, WithColumns, convolve};
+use crate::numerics::taylor::events::{Component, EventFunction, EventRoot, EventSeries, Events};
+use crate::numerics::taylor::flow::{Columns, Elements, Flow, Joined, WithColumns, product};
 use crate::numerics::taylor::integrator::{Settings, integrate};
 use crate::numerics::taylor::step::{Jet, absolute_sum};
 
@@ -34,14 +34,17 @@ struct SlopeFactor<S> {
 }
 
 impl<S: Real, F: Flow<S>> EventFunction<S, F> for SlopeFactor<S> {
-    fn series(&self, jet: &Jet<S, F>, length: S, out: &mut Series<S>) -> S {
-        let component = |i: usize| jet.state.get(i);
+    const DEGREE: usize = 2;
+    fn series(&self, jet: &Jet<S, F>, last: usize, out: &mut EventSeries<S>) {
+        let component = |i: usize| &jet.state.get(i)[..=jet.order()];
         let (r1, r3, h1, h3) = (component(0), component(2), component(3), component(5));
-        for (n, coefficient) in out.iter_mut().enumerate().take(jet.order() + 1) {
-            *coefficient = self.inverse_k_squared * convolve(h1, r1, n) + convolve(h3, r3, n);
+        for (n, coefficient) in out.iter_mut().enumerate().take(last + 1) {
+            *coefficient = self.inverse_k_squared * product(h1, r1, n) + product(h3, r3, n);
         }
-        let size = |series: &Series<S>| absolute_sum(series, jet.order(), length);
-        self.inverse_k_squared * (size(h1) * size(r1)) + size(h3) * size(r3)
+    }
+    fn magnitude(&self, jet: &Jet<S, F>, length: S) -> S {
+        let size = |i: usize| absolute_sum(jet.state.get(i), jet.order(), length);
+        self.inverse_k_squared * (size(3) * size(0)) + size(5) * size(2)
     }
 }
 
