@@ -30,10 +30,11 @@ use crate::effects::rotation_group::start_of_conjugate_time::StartOfConjugateTim
 use crate::effects::scene::{Effect, EulerCase, EulerCases, Inertia, RotationGroupMetric, Scene};
 use crate::plot::axis::Axis;
 use crate::plot::mark::{At, Curve, DirectLabel, Points, RuleLine, Side, SphereCurve, SpherePoints};
-use crate::plot::picture::{Layout, Panel, Picture, View, Width};
+use crate::plot::picture::{Cell, Layout, Legend, Panel, Picture, View, Width};
 use crate::plot::role::Role;
 use crate::table::{Table, Tables};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 
 /// Parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -79,6 +80,8 @@ impl Validate for Params {
     fn validate(&self) -> Result<(), Invalid> {
         self.scene.metric.validate()?;
         self.scene.start.validate()?;
+        let cases = self.scene.start.cases.len();
+        Invalid::unless(cases <= CASES.len(), "scene.start.cases", format!("{cases} starts"), "one to four starts")?;
         self.scene.validate_effects(&[Effect::Attitude, Effect::ConjugateTimes, Effect::Projection])?;
         let Reduced { cosine_squared, p_x, p_y, h, t_end, points } = self.projection;
         let positive = |key: &str, value: f64| {
@@ -131,6 +134,7 @@ const POINT_CHECK: &str = "projected-conjugate-point-by-integration";
 const PATH: &str = "projected-path";
 const PLACE: &str = "section 5.3";
 const CAPTION: &str = "caption of Figure 9";
+const BEYOND: &str = "beyond the article";
 /// The axis value of the start on the energy level, and of the reduced extremal as given.
 const LEVEL: &str = "level";
 const GIVEN: &str = "given";
@@ -271,69 +275,63 @@ impl Definition for Fig9 {
     fn picture(params: &Params, tables: &Tables) -> Result<Picture, NodeError> {
         let asks = |effect| params.scene.asks_for(effect);
         let Inertia { a, b, c } = params.scene.metric.rotation_group;
-        let mut picture = Picture::new(Width::Double, 118.0, "Extremals on SO(3), their conjugate points and their projection")
-            .layout(Layout::Columns(3));
         let mut caption = format!("Euler-Poinsot problem on SO(3), A = {a}, B = {b}, C = {c} (section 5.3).");
+        caption.push_str(&format!(" Starts (Φ1, Φ2, Φ3; p1, p2, p3) = {}.", starts(params)));
+        let (mut above, mut below) = (Vec::new(), Vec::new());
         if asks(Effect::Attitude) {
             let trajectories = (0..params.scene.start.cases.len())
                 .map(|i| Trajectory::read(tables.get(&of_case(ATTITUDE, i)).map_err(unread)?))
                 .collect::<Result<Vec<_>, _>>()?;
             for (i, trajectory) in trajectories.iter().enumerate() {
-                picture = picture.panel(trajectory.against_time().title(format!("case {}", i + 1)));
+                above.push(trajectory.against_time().title(format!("case {}", i + 1)));
             }
-            let plane = |j: usize| {
-                let x = Axis::new("*Φ*_1").unit("rad").pi_ticks();
-                let y = Axis::new(format!("*Φ*_{}", j + 1)).unit("rad").pi_ticks();
-                each(&trajectories, Panel::new(x, y).equal(), |panel, t, i| t.in_plane(panel, j, i))
-            };
-            picture = picture
-                .panel(each(&trajectories, Panel::sphere(SPHERE_VIEW), Trajectory::on_sphere).title("axis *E*_3 in space"))
-                .panel(plane(1))
-                .panel(plane(2));
-            let cases = trajectories.len();
-            let letter = |i: usize| char::from(b'a'.saturating_add(u8::try_from(i).unwrap_or(25)));
-            caption.push_str(&format!(
-                " Extremals with the starts (Φ1, Φ2, Φ3; p1, p2, p3) = {}. From (a) on, one panel a case: continuous branches of the \
-                 Euler angles against time. ({}) The third axis of the body on the unit sphere of space, e3 upwards, the back lighter. \
-                 ({}), ({}) Pairs of Euler angles. Cross: start.",
-                starts(params),
-                letter(cases),
-                letter(cases + 1),
-                letter(cases + 2),
-            ));
-            if asks(Effect::ConjugateTimes) {
-                caption.push_str(" Disc: first conjugate point; circle: second.");
-            }
+            let sphere = Panel::sphere(SPHERE_VIEW).title("axis *E*_3 in space");
+            above.push(each(&trajectories, sphere, Trajectory::on_sphere));
+            below.push(each(&trajectories, plane(&trajectories), Trajectory::in_plane).title("Euler angles"));
             let rows = trajectories.first().map_or(0, |t| t.time.len());
+            let letters: Vec<String> = (b'a'..).take(trajectories.len() + 2).map(|l| char::from(l).into()).collect();
+            let (cases, rest) = letters.split_at(trajectories.len());
             caption.push_str(&format!(
-                " Attitude integrated as a unit quaternion by power series to rounding, {rows} points on each curve."
+                " ({}) Euler angles against time, one panel a case, continuous branches. ({}) The third axis of the body on the unit sphere of \
+                 space, e3 upwards; thin and light: on the back. ({}) Φ1 and Φ2. Cross: start.{} Attitude integrated as a unit quaternion by \
+                 power series to rounding, {rows} points on each curve.",
+                cases.join("), ("),
+                rest[0],
+                rest[1],
+                if asks(Effect::ConjugateTimes) { " Disc: first conjugate point; circle: second." } else { "" },
+            ));
+        }
+        if asks(Effect::Projection) {
+            below.push(projection_panel(params, tables)?);
+            let Reduced { cosine_squared, p_x, p_y, points, .. } = params.projection;
+            let t1 = read(tables, &given(POINT), "t1")?;
+            let square = "; square: where it is at the first conjugate times τ1 on SO(3), one point to the eye";
+            caption.push_str(&format!(
+                " Projection: the Serret-Andoyer extremal (9) with p_x = {p_x}, p_y = {p_y}, y = arccos √{cosine_squared} at x = 0, to which \
+                 the starts project. Disc: its first conjugate point, t1 = {t1:.7}{}. Closed form, {points} points.",
+                if asks(Effect::Attitude) && asks(Effect::ConjugateTimes) { square } else { "" }
             ));
         }
         if asks(Effect::ConjugateTimes) {
+            if above.is_empty() && below.is_empty() {
+                above.push(times_panel(params, tables)?);
+            }
             let times = (0..params.scene.start.cases.len()).map(|i| {
                 let (t1, t2) = (read(tables, &of_case(TIMES, i), "t1")?, read(tables, &of_case(TIMES, i), "t2")?);
                 Ok(format!("{t1:.8} and {t2:.8} (case {})", i + 1))
             });
             let times = times.collect::<Result<Vec<_>, NodeError>>()?.join(", ");
             caption.push_str(&format!(
-                " Conjugate times τ: {times}; body frame and eigenphases, relative error 1e-14, checked by the attitude's own variations."
+                " Conjugate times τ1, τ2: {times}; Jacobi fields in the body frame, eigenphases, relative error 1e-14, checked by the \
+                 attitude's own variations."
             ));
         }
-        if asks(Effect::Projection) {
-            picture = picture.panel(projection_panel(params, tables)?);
-            let Reduced { cosine_squared, p_x, p_y, points, .. } = params.projection;
-            let t1 = read(tables, &given(POINT), "t1")?;
-            caption.push_str(&format!(
-                " Last panel: the Serret-Andoyer extremal (9) with p_x = {p_x}, p_y = {p_y}, y = arccos √{cosine_squared} at x = 0, to which the \
-                 starts project; its first conjugate time is t1 = {t1:.7} (disc).{} Closed form, {points} points.",
-                if asks(Effect::Attitude) && asks(Effect::ConjugateTimes) {
-                    " Square: where it is at the first conjugate time on SO(3), for all cases."
-                } else {
-                    ""
-                }
-            ));
-        }
-        Ok(picture.caption(caption))
+        let (height, cells) = cells(above.len(), below.len());
+        let mut picture = Picture::new(Width::Double, height, "Extremals on SO(3), their conjugate points and their projection")
+            .layout(Layout::Cells(cells))
+            .caption(caption);
+        picture.panels = above.into_iter().chain(below).collect();
+        Ok(picture)
     }
 
     fn values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
@@ -378,10 +376,57 @@ impl Definition for Fig9 {
 }
 
 /// Both starts and all conjugate points of the article's cases are in front.
-const SPHERE_VIEW: View = View::new(-0.5, -0.3);
+const SPHERE_VIEW: View = View::new(-0.95, -0.15);
 
 /// Roles of the cases, in order, and then again from the first.
 const CASES: [Role; 4] = [Role::SeriesA, Role::SeriesB, Role::SeriesC, Role::SeriesD];
+
+/// Height on paper (mm) and the cells of two rows of panels: equal ones above; below, the wide one first.
+fn cells(above: usize, below: usize) -> (f64, Vec<Cell>) {
+    let rows = [above, below].into_iter().filter(|panels| *panels > 0).count().max(1);
+    let height = 1.0 / rows as f64;
+    let row = |top: f64, widths: Vec<f64>| {
+        let mut left = 0.0;
+        let cell = move |width: f64| {
+            let cell = Cell { left, top, width, height };
+            left += width;
+            cell
+        };
+        widths.into_iter().map(cell).collect::<Vec<_>>()
+    };
+    let first = row(0.0, vec![1.0 / above.max(1) as f64; above]);
+    let widths = if below == 2 { vec![0.62, 0.38] } else { vec![1.0; below] };
+    let second = row(if above > 0 { height } else { 0.0 }, widths);
+    (8.0 + 51.0 * rows as f64, [first, second].concat())
+}
+
+/// The plane of Φ1 and Φ2, without the curves.
+fn plane(trajectories: &[Trajectory<'_>]) -> Panel {
+    let y = Axis::new("*Φ*_2").unit("rad");
+    let inside = trajectories.iter().all(|t| t.angles[1].iter().all(|phi2| (0.0..=PI).contains(phi2)));
+    let y = if inside {
+        y.fixed(0.0, PI).ticks_at([(0.0, "0"), (0.5 * PI, "π/2"), (PI, "π")])
+    } else {
+        y.pi_ticks()
+    };
+    Panel::new(Axis::new("*Φ*_1").unit("rad").pi_ticks(), y).equal()
+}
+
+/// Conjugate times case by case: where no curve is asked for.
+fn times_panel(params: &Params, tables: &Tables) -> Result<Panel, NodeError> {
+    let cases = params.scene.start.cases.len();
+    let ticks = (1..=cases).map(|i| (i as f64, i.to_string()));
+    let y = Axis::new("case").fixed(0.5, cases as f64 + 0.5).ticks_at(ticks).reversed();
+    let mut panel = Panel::new(Axis::new("conjugate time").unit("time"), y).legend(Legend::Strip);
+    for (column, role, words) in [
+        ("t1", Role::ConjugatePoint, "first conjugate point"),
+        ("t2", Role::SecondConjugatePoint, "second conjugate point"),
+    ] {
+        let points = (0..cases).map(|i| Ok((read(tables, &of_case(TIMES, i), column)?, (i + 1) as f64)));
+        panel = panel.mark(Points::new(role, points.collect::<Result<Vec<_>, NodeError>>()?).legend(words));
+    }
+    Ok(panel)
+}
 
 fn each<'a>(
     trajectories: &'a [Trajectory<'a>],
@@ -446,9 +491,10 @@ impl<'t> Trajectory<'t> {
         panel
     }
 
-    fn in_plane(&self, panel: Panel, j: usize, case: usize) -> Panel {
-        let points: Vec<(f64, f64)> = self.angles[0].iter().copied().zip(self.angles[j].iter().copied()).collect();
-        let panel = self.marks().into_iter().fold(panel, |panel, (role, row, words)| {
+    fn in_plane(panel: Panel, trajectory: &Self, case: usize) -> Panel {
+        let [phi1, phi2, _] = trajectory.angles;
+        let points: Vec<(f64, f64)> = phi1.iter().copied().zip(phi2.iter().copied()).collect();
+        let panel = trajectory.marks().into_iter().fold(panel, |panel, (role, row, words)| {
             panel.mark(Points::new(role, vec![points[row]]).legend(words))
         });
         panel.mark(Curve::new(CASES[case % CASES.len()], points).label(format!("case {}", case + 1)))
@@ -648,7 +694,7 @@ fn time_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) -> Res
         } else {
             "So rounding of the start does not explain this τ; it is unexplained."
         };
-        claims.push(claim(&format!("tau_case_{number}_by_rounding"), CAPTION, statement, test, note));
+        claims.push(claim(&format!("tau_case_{number}_by_rounding"), BEYOND, statement, test, note));
     }
     equal_times_claims(params, tables, claims)
 }
@@ -682,7 +728,7 @@ fn equal_times_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>)
     };
     let statement = "Both cases have the same first conjugate time, up to the rounding of their starts.";
     let note = "The start exactly on the curve's energy level has τ = tau_level, whatever k, K and Φ1 are.";
-    claims.push(claim("times_equal", "beyond the article", statement, test, note));
+    claims.push(claim("times_equal", BEYOND, statement, test, note));
     Ok(())
 }
 
@@ -858,6 +904,8 @@ mod tests {
         let times = only(r#"["conjugate-times", "attitude"]"#);
         assert_eq!(times.table("attitude/case=1").rows(), 163);
         assert!(times.findings.values.iter().all(|value| !value.name.contains("projected")));
+        let alone = only(r#"["conjugate-times"]"#);
+        assert!(alone.findings.claims.iter().any(|claim| claim.id == "times_equal"));
         let projection = only(r#"["projection"]"#);
         assert!(projection.findings.claims.iter().any(|claim| claim.id == "t1_projected"));
         assert!(projection.findings.claims.iter().all(|claim| !claim.id.starts_with("tau")));
