@@ -210,7 +210,7 @@ mod tests {
         assert_eq!((t_star.agreement, t_star.ulps), (Agreement::Agrees, Some(1)));
         let theta_star = compared.iter().find(|c| c.name == "remark_3_25/theta_star").expect("there");
         assert_eq!((theta_star.agreement, theta_star.ours), (Agreement::NoSuchValue, None));
-        assert!(references.compare("fig1", &[], &config).is_empty());
+        assert!(references.compare("no_such_experiment", &[], &config).is_empty());
     }
 
     #[test]

@@ -243,7 +243,7 @@ pub struct PointArguments {
     #[arg(value_name = "METRIC")]
     pub metric: String,
     /// The metric's parameters and the start, as key=value; with --input, values for all rows
-    #[arg(value_name = "KEY=VALUE", allow_hyphen_values = true)]
+    #[arg(value_name = "KEY=VALUE")]
     pub values: Vec<String>,
     /// A table of starts: CSV or Parquet, by the file's ending
     #[arg(long, value_name = "FILE", requires = "output")]

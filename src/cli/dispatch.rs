@@ -3,7 +3,9 @@
 use crate::cli::arguments::{Arguments, Verb};
 use crate::cli::console::{self, ConsoleError};
 use crate::cli::exit::Exit;
-use crate::cli::{check, completions, figures, gc, graph, init, list, log, new, point, show, verify, watch, why};
+use crate::cli::{
+    check, completions, figures, gc, graph, init, list, log, new, point, show, verify, version, watch, why,
+};
 use clap::Parser;
 use std::sync::Mutex;
 
@@ -14,6 +16,9 @@ static PANIC: Mutex<Option<String>> = Mutex::new(None);
 pub fn main() -> Exit {
     let arguments = match Arguments::try_parse() {
         Ok(arguments) => arguments,
+        Err(error) if version::is_asked_as_json(std::env::args_os().skip(1), &error) => {
+            return version::run().map_or(Exit::Success, |()| Exit::Success);
+        }
         Err(error) => {
             // Help and version are data, the rest is a message; a closed pipe is no defect.
             let _ = error.print();

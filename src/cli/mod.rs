@@ -19,6 +19,7 @@ pub mod progress;
 pub mod session;
 pub mod show;
 pub mod verify;
+pub mod version;
 pub mod watch;
 pub mod why;
 pub mod workspace;

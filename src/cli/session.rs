@@ -59,7 +59,7 @@ impl From<WorkspaceError> for Refused {
             | WorkspaceError::Unreadable { .. }
             | WorkspaceError::Accuracy(_)
             | WorkspaceError::UnknownTarget { .. } => Exit::Usage,
-            WorkspaceError::Configs(_) | WorkspaceError::UnknownKind(_) => Exit::Config,
+            WorkspaceError::Configs(_) => Exit::Config,
             WorkspaceError::Defect(_) => Exit::Defect,
         };
         Self { exit, text: error.to_string() }
@@ -78,6 +78,12 @@ impl Session {
     /// Wrong configs, unknown targets, no place to work in.
     pub fn begin(place: &PlaceArguments, targets: &[String]) -> Result<Self, Refused> {
         let workspace = Workspace::find(place)?;
+        let folder = workspace.store.join(STORE_FORMAT);
+        if let Some(file) = folder.ancestors().find(|path| path.exists()).filter(|path| !path.is_dir()) {
+            let text =
+                format!("{} is no folder, so the store can't be there\n  say where: --store DIR", file.display());
+            return Err(Refused { exit: Exit::Store, text });
+        }
         let targets: Vec<String> = targets.iter().map(|target| workspace.relative(target)).collect();
         // What is asked of values.toml is asked of the whole.
         let of_values = |target: &String| [collected::ID, collected::VALUES_FILE].contains(&target.as_str());
@@ -92,7 +98,7 @@ impl Session {
         let graph = Graph::join(plans).map_err(|errors| Refused { exit: Exit::Defect, text: lines(&errors) })?;
         let selection =
             graph.select(&targets).map_err(|error| Refused { exit: Exit::Usage, text: error.to_string() })?;
-        let store = Store::at(workspace.store.join(STORE_FORMAT));
+        let store = Store::at(folder);
         let root = if workspace.root.as_os_str().is_empty() { PathBuf::from(".") } else { workspace.root.clone() };
         let mut options = Options::new(root, workspace.out.clone());
         if whole {
@@ -158,10 +164,11 @@ impl Session {
 fn unscanned(workspace: &Workspace) -> Vec<String> {
     let mut folders = vec!["measured".to_owned(), "article".to_owned(), Accuracy::Draft.to_string()];
     for entry in std::fs::read_dir(&workspace.out).into_iter().flatten().flatten() {
-        if let Ok(name) = entry.file_name().into_string() {
-            if name.parse::<Accuracy>().is_ok() && !folders.contains(&name) {
-                folders.push(name);
-            }
+        if let Ok(name) = entry.file_name().into_string()
+            && name.parse::<Accuracy>().is_ok()
+            && !folders.contains(&name)
+        {
+            folders.push(name);
         }
     }
     folders

@@ -72,9 +72,6 @@ pub enum WorkspaceError {
     /// Wrong configs: all of them, so that one run shows all.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Configs(Vec<ConfigError>),
-    /// A config of a kind that no experiment has.
-    #[error("{0}")]
-    UnknownKind(Box<UnknownKind>),
     /// A target that is neither experiment, output nor node.
     #[error("no experiment, output or node is called {target:?}\n  experiments: {known}{nearest}")]
     UnknownTarget {
@@ -88,16 +85,6 @@ pub enum WorkspaceError {
     /// A defect of an experiment.
     #[error("{0}")]
     Defect(String),
-}
-
-/// A config whose `kind` no experiment has.
-#[derive(Debug, thiserror::Error)]
-#[error("{file}: kind = {kind:?} is not an experiment\n  accepted: {accepted}{nearest}")]
-pub struct UnknownKind {
-    file: String,
-    kind: String,
-    accepted: String,
-    nearest: String,
 }
 
 /// `\n  did you mean …?` where a name is near enough.
@@ -152,10 +139,9 @@ impl Workspace {
         let mut configs = Vec::new();
         for entry in std::fs::read_dir(&self.experiments).map_err(unreadable)? {
             let path = entry.map_err(unreadable)?.path();
-            if path.extension().is_some_and(|ending| ending == "toml") {
-                if let Some(id) = path.file_stem().and_then(|stem| stem.to_str()) {
-                    configs.push((id.to_owned(), path.clone()));
-                }
+            let is_config = path.extension().is_some_and(|ending| ending == "toml");
+            if let Some(id) = path.file_stem().and_then(|stem| stem.to_str()).filter(|_| is_config) {
+                configs.push((id.to_owned(), path.clone()));
             }
         }
         configs.sort_by_key(|(id, _)| sort_key(id));
@@ -231,12 +217,8 @@ fn load_one<'a>(id: &'a str, path: &'a Path) -> impl Fn(Option<Accuracy>) -> Res
             std::fs::read_to_string(path).map_err(|error| WorkspaceError::Unreadable { path: file.clone(), error })?;
         let kind = config::peek_kind(&file, &text).map_err(|error| WorkspaceError::Configs(vec![error]))?;
         let experiment = experiments::ALL.iter().find(|experiment| experiment.kind == kind).ok_or_else(|| {
-            WorkspaceError::UnknownKind(Box::new(UnknownKind {
-                file: file.clone(),
-                accepted: experiments::ALL.iter().map(|e| e.kind).collect::<Vec<_>>().join(", "),
-                nearest: nearest(&kind, experiments::ALL.iter().map(|e| e.kind)),
-                kind: kind.clone(),
-            }))
+            let known: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.kind).collect();
+            WorkspaceError::Configs(vec![config::unknown_kind(&file, &text, &known)])
         })?;
         let planned = experiment.plan(id, &ConfigSource { file, text }, accuracy).map_err(|error| match error {
             PlanError::Config(error) => WorkspaceError::Configs(vec![*error]),

@@ -1,8 +1,14 @@
 //! Node kinds: what a scene can call for. A kind belongs to its effect, never to a figure.
 
+pub mod conjugate_point_versus_k;
+pub mod conjugate_point_versus_k_by_integration;
 pub mod counted;
 pub mod point;
 pub mod product;
 pub mod quantities;
+pub mod rotation_group;
 pub mod scene;
 pub mod serret_andoyer;
+pub mod spin;
+pub mod switch_points;
+pub mod switch_points_by_integration;

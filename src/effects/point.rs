@@ -6,6 +6,7 @@
 use crate::contract::work::Work;
 use std::collections::BTreeMap;
 
+mod rotation_group;
 mod serret_andoyer;
 mod spin;
 
@@ -174,10 +175,7 @@ pub fn answer(metric: Metric, given: &Inputs, relative_error: f64) -> Result<Ans
     match metric {
         Metric::SerretAndoyer => serret_andoyer::answer(&reader),
         Metric::Spin => spin::answer(&reader),
-        Metric::RotationGroup => {
-            let _ = relative_error;
-            Err(PointError::Refused(String::new()))
-        }
+        Metric::RotationGroup => rotation_group::answer(&reader, relative_error),
     }
 }
 

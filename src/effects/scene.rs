@@ -5,6 +5,8 @@
 use crate::contract::accuracy::Accuracy;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::sweep::Sweep;
+use crate::effects::spin::momenta::Momenta;
+use crate::geometry::rotation_group::euler_angles::SMALLEST_SINE;
 use crate::geometry::serret_andoyer::Metric;
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +30,14 @@ pub enum Effect {
     Period,
     /// Attitude of the body: Euler angles along a trajectory.
     Attitude,
+    /// First two conjugate times of single trajectories, by the first route and by the second.
+    ConjugateTimes,
+    /// What a trajectory on SO(3) projects to in the Serret-Andoyer variables.
+    Projection,
+    /// Parameters at which the first conjugate point passes a pole or the equator.
+    SwitchPoints,
+    /// Trajectories sorted into types by what they do up to a first exit.
+    TrajectoryTypes,
 }
 
 impl Effect {
@@ -42,6 +52,10 @@ impl Effect {
             Self::Potential => "potential",
             Self::Period => "period",
             Self::Attitude => "attitude",
+            Self::ConjugateTimes => "conjugate-times",
+            Self::Projection => "projection",
+            Self::SwitchPoints => "switch-points",
+            Self::TrajectoryTypes => "trajectory-types",
         }
     }
 }
@@ -61,7 +75,7 @@ pub const METRICS: &[(&str, &[Effect])] = &[
         ],
     ),
     ("spin", &[Effect::Geodesics, Effect::ConjugateLocus]),
-    ("rotation-group", &[Effect::ConjugateLocus, Effect::Attitude]),
+    ("rotation-group", &[Effect::Attitude, Effect::ConjugateTimes, Effect::Projection]),
 ];
 
 /// A scene: `M` is the metric's part of the config, `S` the start's.
@@ -146,6 +160,63 @@ impl From<Inertia> for crate::effects::serret_andoyer::body::Body {
     }
 }
 
+impl From<Inertia> for crate::effects::rotation_group::start::Body {
+    fn from(inertia: Inertia) -> Self {
+        Self { a: inertia.a, b: inertia.b, c: inertia.c }
+    }
+}
+
+/// `start = { cases = [{ Phi = [0.0, 2.8506, -0.32175], p = [0.0, 0.0, 0.3155946] }] }`: single extremals on SO(3).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EulerCases {
+    /// The extremals, in the order of their panels.
+    pub cases: Vec<EulerCase>,
+}
+
+/// Euler angles and their momenta.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EulerCase {
+    /// Φ1, Φ2, Φ3 (rad), sin Φ2 not zero.
+    #[serde(rename = "Phi")]
+    pub phi: [f64; 3],
+    /// p1, p2, p3, not all zero.
+    pub p: [f64; 3],
+}
+
+impl From<EulerCase> for crate::effects::rotation_group::start::EulerStart {
+    fn from(case: EulerCase) -> Self {
+        Self { phi: case.phi, p: case.p }
+    }
+}
+
+impl EulerCases {
+    /// Refuses an empty list, numbers that are not finite, poles of the chart and bodies at rest.
+    ///
+    /// # Errors
+    /// The first value that is not accepted.
+    pub fn validate(&self) -> Result<(), Invalid> {
+        Invalid::unless(!self.cases.is_empty(), "scene.start.cases", "[]", "a list of at least one start")?;
+        for (i, EulerCase { phi, p }) in self.cases.iter().enumerate() {
+            let key = |name: &str| format!("scene.start.cases[{i}].{name}");
+            for j in 0..3 {
+                Invalid::number(phi[j].is_finite(), key(&format!("Phi[{j}]")), phi[j], "a finite number")?;
+                Invalid::number(p[j].is_finite(), key(&format!("p[{j}]")), p[j], "a finite number")?;
+            }
+            let away = libm::sin(phi[1]).abs() >= SMALLEST_SINE;
+            Invalid::number(
+                away,
+                key("Phi[1]"),
+                phi[1],
+                "a number with sin Phi2 not 0: there Euler angles have a pole",
+            )?;
+            Invalid::unless(*p != [0.0; 3], key("p"), "[0, 0, 0]", "momenta that are not all zero")?;
+        }
+        Ok(())
+    }
+}
+
 /// `start = { phi0 = 0.0 }`: where extremals of the Serret-Andoyer metric start, in all directions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -162,6 +233,60 @@ impl Phi0Start {
     pub fn validate(&self, half_width: f64) -> Result<(), Invalid> {
         let accepted = format!("|phi0| < K(k)/alpha = {half_width:.6}");
         self.phi0.validate_each("scene.start.phi0", &accepted, |phi0| phi0.abs() < half_width)
+    }
+}
+
+/// `start = { phi0 = 0.0, p_theta = [0.62, 0.75] }`: a fan of extremals of the Serret-Andoyer metric from one point.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FanStart {
+    /// Distance from the equator (length), `|phi0| < K(k)/alpha`.
+    pub phi0: f64,
+    /// Clairaut constants, `|p_theta| ≤ √μ(phi0)`: a number, a list or a range.
+    pub p_theta: Sweep,
+}
+
+impl FanStart {
+    /// Refuses a start outside the strip of a metric and constants that no direction has.
+    ///
+    /// # Errors
+    /// The first value that is not accepted.
+    pub fn validate(&self, inertia: Inertia) -> Result<(), Invalid> {
+        let Inertia { a, b, c } = inertia;
+        let Ok(metric) = Metric::new(a, b, c) else { return inertia.validate("scene.metric.serret-andoyer") };
+        let accepted = format!("|phi0| < K(k)/alpha = {:.6}", metric.half_width());
+        let inside = self.phi0.abs() < metric.half_width();
+        Invalid::number(inside, "scene.start.phi0", self.phi0, accepted)?;
+        let largest = metric.mu(self.phi0).sqrt();
+        let accepted = format!("0 <= p_theta <= sqrt(mu(phi0)) = {largest:.6}");
+        self.p_theta.validate_each("scene.start.p_theta", &accepted, |p_theta| (0.0..=largest).contains(&p_theta))
+    }
+}
+
+/// `start = { phi0 = -0.75, p_theta = [0.64, 0.75] }`: a start, and Clairaut constants that it need not have itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Phi0Family {
+    /// Distance from the equator (length), `|phi0| < K(k)/alpha`.
+    pub phi0: f64,
+    /// Clairaut constants, `0 ≤ p_theta ≤ A^(−1/2)`: a number, a list or a range.
+    pub p_theta: Sweep,
+}
+
+impl Phi0Family {
+    /// Refuses a start outside the strip of a metric and constants that no extremal has.
+    ///
+    /// # Errors
+    /// The first value that is not accepted.
+    pub fn validate(&self, inertia: Inertia) -> Result<(), Invalid> {
+        let Inertia { a, b, c } = inertia;
+        let Ok(metric) = Metric::new(a, b, c) else { return inertia.validate("scene.metric.serret-andoyer") };
+        let accepted = format!("|phi0| < K(k)/alpha = {:.6}", metric.half_width());
+        let inside = self.phi0.abs() < metric.half_width();
+        Invalid::number(inside, "scene.start.phi0", self.phi0, accepted)?;
+        let largest = metric.equator_clairaut();
+        let accepted = format!("0 <= p_theta <= A^(-1/2) = {largest:.6}");
+        self.p_theta.validate_each("scene.start.p_theta", &accepted, |p_theta| (0.0..=largest).contains(&p_theta))
     }
 }
 
@@ -224,6 +349,33 @@ pub struct SpinMetric {
 pub struct SpinParameters {
     /// `k = J23/J12 > 0`: a number, a list or a range; one node a value.
     pub k: Sweep,
+}
+
+/// `start = { p_theta = 1e-4 }`: one start on the equator of the spin problem, φ(0) = π/2, θ(0) = 0, p_φ(0) = −2.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EquatorStart {
+    /// `p_θ(0)`, any finite number.
+    pub p_theta: f64,
+}
+
+/// `start = { p_theta = { from = 1e-9, to = 1e4, step = 0.1 } }`: all starts of a branch, θ(0) = 0, φ(0) = π/2, p_φ(0) = −2, H = 1.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BranchStart {
+    /// The momenta `p_θ(0) ≥ 0`; inside a node they are its rows.
+    pub p_theta: Momenta,
+}
+
+impl Validate for BranchStart {
+    fn validate(&self) -> Result<(), Invalid> {
+        let Momenta { from, to, step } = self.p_theta;
+        let key = |name: &str| format!("scene.start.p_theta.{name}");
+        Invalid::number((1e-290..=1.0).contains(&from), key("from"), from, "a number from 1e-290 to 1")?;
+        let accepted = format!("a number from 10 to 1e12, above from = {from:?}");
+        Invalid::number((10.0..=1e12).contains(&to), key("to"), to, accepted)?;
+        Invalid::number((1e-3..=0.5).contains(&step), key("step"), step, "a number from 0.001 to 0.5 (radians)")
+    }
 }
 
 impl Validate for SpinMetric {

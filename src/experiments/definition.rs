@@ -156,7 +156,7 @@ fn plan<D: Definition>(id: &str, source: &ConfigSource, accuracy: Option<Accurac
     let readers: [(&str, &str, Node); 2] = [
         (PICTURE_FILE, "svg", {
             let reader = Picturing::<D> { id: id.to_owned(), params: params.clone() };
-            Node::new(Address::new(id, "picture"), reader).map_err(undescribable)?
+            Node::new(Address::new(id, "picture"), reader).map_err(undescribable)?.origin(CONFIG, "")
         }),
         (FINDINGS_FILE, "json", {
             Node::new(Address::new(id, FINDINGS_NODE), Finding::<D> { params }).map_err(undescribable)?
@@ -188,6 +188,9 @@ struct Picturing<D: Definition> {
     id: String,
     params: D::Params,
 }
+
+/// Where the leaves of a picture's parameters stand in its manifest.
+const CONFIG: &str = "config";
 
 /// The picture names its experiment and shows its parameters, so both are leaves of its manifest.
 impl<D: Definition> Serialize for Picturing<D> {

@@ -5,6 +5,7 @@ pub mod findings;
 pub mod nodes;
 #[cfg(test)]
 pub mod preview;
+pub mod spin_branches;
 #[cfg(test)]
 pub mod template;
 
@@ -16,4 +17,4 @@ macro_rules! experiments {
     };
 }
 
-experiments! { remark_3_25 }
+experiments! { fig1 fig2 remark_3_25 fig3 fig4 fig5 fig7 fig8 fig9 }

@@ -140,7 +140,7 @@ impl Definition for Remark {
         Ok(Picture::new(Width::Double, 72.0, "The first conjugate point on the equator")
             .caption(format!(
                 "Serret-Andoyer metric, A = {a}, B = {b}, C = {c}, arc length as time. (a) First conjugate time of the start \
-                 (0, φ0) with φ' = 0, the cusp of its conjugate locus: half a period, T/2. Dotted: the formula of Theorem 3.9 and Remark \
+                 (0, φ0) with φ' = 0, the cusp of its conjugate locus: half a period, T/2. Dashed line: the formula of Theorem 3.9 and Remark \
                  3.25. (b) θ of that point, the first return Δθ. Both are least at φ0 = 0. Disc: the limit φ0 → 0 \
                  extrapolated from {} starts in φ0² (Neville); it is πA/√((B−A)(C−A)), not the printed value, which is too large by \
                  √A. Curves: {} starts, closed form, relative error 1e-14; each time checked by integrating the flow (9).",

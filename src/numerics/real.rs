@@ -86,18 +86,22 @@ pub trait Real:
         self.atan2(Self::ONE)
     }
     /// The smaller of two.
+    #[inline]
     fn min(self, other: Self) -> Self {
         if self < other { self } else { other }
     }
     /// The larger of two.
+    #[inline]
     fn max(self, other: Self) -> Self {
         if self > other { self } else { other }
     }
     /// The square.
+    #[inline]
     fn squared(self) -> Self {
         self * self
     }
     /// Whether it is neither infinite nor "not a number".
+    #[inline]
     fn is_finite(self) -> bool {
         self.to_f64().is_finite()
     }
@@ -111,18 +115,23 @@ impl Real for f64 {
     /// 2^(−52/8) = 2^−6.5 = 0.01104…
     const EPSILON_ROOT_8: Self = 0.011;
 
+    #[inline]
     fn from_f64(x: f64) -> Self {
         x
     }
+    #[inline]
     fn to_f64(self) -> f64 {
         self
     }
+    #[inline]
     fn sqrt(self) -> Self {
         f64::sqrt(self)
     }
+    #[inline]
     fn abs(self) -> Self {
         f64::abs(self)
     }
+    #[inline]
     fn floor(self) -> Self {
         f64::floor(self)
     }

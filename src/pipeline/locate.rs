@@ -3,13 +3,15 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// The config's key that a leaf comes from: by the longest origin that is the leaf or holds it, else the leaf itself.
+/// The config's key that a leaf comes from: by the longest origin that is the leaf or holds it, else the leaf itself. An
+/// origin with an empty key stands for the config as a whole.
 pub(super) fn config_key(origins: &[(String, String)], leaf: &str) -> String {
     let holds = |origin: &str| {
         leaf.strip_prefix(origin).is_some_and(|rest| rest.is_empty() || rest.starts_with('.') || rest.starts_with('['))
     };
     let found = origins.iter().filter(|(origin, _)| holds(origin)).max_by_key(|(origin, _)| origin.len());
-    found.map_or_else(|| leaf.to_owned(), |(origin, key)| format!("{key}{}", &leaf[origin.len()..]))
+    let key = |(origin, key): &(String, String)| format!("{key}{}", &leaf[origin.len()..]);
+    found.map_or_else(|| leaf.to_owned(), |origin| key(origin).trim_start_matches('.').to_owned())
 }
 
 /// The line, from 1, of a key such as `scene.metric.spin.k[2]`; of as much of it as is there. None when nothing is.
@@ -75,5 +77,6 @@ mod tests {
         assert_eq!(config_key(&origins, "k"), "scene.k");
         assert_eq!(config_key(&origins, "k.list[3]"), "scene.list[3]");
         assert_eq!(config_key(&origins, "kk"), "kk");
+        assert_eq!(config_key(&[("config".to_owned(), String::new())], "config.scene.k[1]"), "scene.k[1]");
     }
 }

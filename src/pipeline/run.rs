@@ -60,6 +60,8 @@ pub fn run(graph: &Graph, selection: &Selection, store: &Store, options: &Option
     let session = begin(store, events);
     let view = heads::view(&options.root, &options.out);
     let (heads, mut damage) = read_heads(graph, selection, store, &view);
+    // In a store that can't be used nothing will be written anew.
+    damage.retain(|_| session.is_ok());
     let mut notes = Vec::new();
     for notice in session.iter().flat_map(|session| &session.notices) {
         match notice {

@@ -139,6 +139,8 @@ impl<'a> Scheduler<'a> {
                     continue;
                 }
                 if self.running.is_empty() && (self.queue.is_empty() || self.is_stopped) {
+                    // Nodes that another run did while this one waited for their locks were settled by `start`.
+                    self.bring_due();
                     break;
                 }
                 self.receive(&receiver, if is_lock_awaited { LOCK_POLL } else { TICK });

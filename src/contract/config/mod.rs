@@ -15,5 +15,5 @@ mod validate;
 
 pub use error::{ConfigError, ConfigProblem};
 pub use place::locate;
-pub use read::{digest, leaves, peek_kind, read};
+pub use read::{digest, leaves, peek_kind, read, unknown_kind};
 pub use validate::{Invalid, Validate};

@@ -69,6 +69,27 @@ pub fn peek_kind(file: &str, text: &str) -> Result<String, ConfigError> {
     }
 }
 
+/// The error for a `kind` that is a name, but none of the known ones.
+pub fn unknown_kind(file: &str, text: &str, known: &[&str]) -> ConfigError {
+    let document = match parse(file, text) {
+        Ok(document) => document,
+        Err(error) => return error,
+    };
+    let value = document.get_ref().get(KIND);
+    let span = value.map_or(0..0, Spanned::span);
+    let kind = value.and_then(|value| value.get_ref().as_str()).unwrap_or_default();
+    let known: Vec<String> = known.iter().map(|name| (*name).to_owned()).collect();
+    let problem = ConfigProblem {
+        key: KIND.to_owned(),
+        found: written(text, &span),
+        accepted: known.join(", "),
+        nearest: super::explain::nearest(kind, &known),
+        message: "`kind` is the name of no experiment".to_owned(),
+        ..ConfigProblem::default()
+    };
+    ConfigError::at(file, text, span, problem)
+}
+
 /// What a config says, as leaves in order of their paths: comments, layout and the order of keys are not in them; `0.80`
 /// is `0.8`, and `1` is `1.0`.
 ///

@@ -2,6 +2,14 @@
 
 pub mod body;
 pub mod by_integration;
+pub mod conjugate_locus;
+pub mod curvature;
+pub mod curvature_profile;
 pub mod cusp_limit;
 pub mod cusps;
+pub mod cut_locus;
 pub mod equator_limits;
+pub mod geodesics;
+pub mod potential;
+pub mod wave_front;
+pub mod wave_front_crossings;

@@ -25,6 +25,9 @@ use crate::numerics::taylor::flow::{
 use crate::numerics::taylor::integrator::{IntegrationError, Settings, integrate};
 use crate::numerics::taylor::step::{Jet, absolute_sum};
 
+/// The smallest scale of `(h1, h2)`: below it they don't matter to anything up to times of `70/√(1/k² − 1)`.
+const SMALLEST_SCALE: f64 = 1e-30;
+
 /// The lifted flow. State: `[r1, r2, r3, h1, h2, h3]`.
 #[derive(Clone, Copy, Debug)]
 pub struct SpinLift<S> {
@@ -67,11 +70,14 @@ impl<S: Algebra> Flow<S> for SpinLift<S> {
     #[inline(always)]
     fn scales(&self, state: &[S; 6]) -> [S; 6] {
         // For a large momentum everything happens within t ~ 1/|h|: r moves by 1/|h|, h1 and h3 stay of order 1. What
-        // counts is the error relative to these, not to |r| = 1 and to |h|.
+        // counts is the error relative to these, not to |r| = 1 and to |h|. Near the meridian h1 and h2, which obey a linear
+        // system with the factor h3, are of the size of p_θ and grow exponentially: an error of the size of ε|h| would be
+        // one of ε/p_θ. So they are measured by their own size.
         let [_, _, _, h1, _, h3] = *state;
         let (h, turning) = (largest(&state[3..]), largest(&[h1, h3]));
+        let across = largest(&state[3..5]).larger(S::number(SMALLEST_SCALE));
         let moved = S::number(1.0) / h.larger(S::number(1.0));
-        [moved, moved, moved, turning, h, turning]
+        [moved, moved, moved, -((-across).larger(-turning)), across, turning]
     }
 }
 
@@ -170,8 +176,8 @@ pub enum LiftError {
         /// What is accepted.
         accepted: &'static str,
     },
-    /// No conjugate time up to the time asked for.
-    #[error("no conjugate time up to t = {t_max}")]
+    /// No conjugate time, or no such return to the equator, up to the time asked for.
+    #[error("no such conjugate time or return up to t = {t_max}")]
     NoneBefore {
         /// The time asked for.
         t_max: f64,
@@ -266,6 +272,45 @@ pub fn equator_crossings<S: Real>(
         EquatorCrossing { time: root.time, r: [r1, r2, r3] }
     };
     Ok((events.found.iter().map(crossing).collect(), arrival.work))
+}
+
+/// A return to the equator, with the Jacobi scalar there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CrossingWithJacobi<S> {
+    /// The time of the return.
+    pub t: S,
+    /// The point, in R³.
+    pub r: [S; 3],
+    /// `J = −r·δh` there: zero when the return is a conjugate point.
+    pub jacobi: S,
+}
+
+/// The `crossing`-th return to the equator `r2 = 0` (from 1), with `J` there.
+///
+/// As a function of `k` or `p_θ` this `J` has a simple root where a conjugate point crosses the equator, although the
+/// conjugate time has a vertical tangent there. Domain, guarantee and errors as for [`conjugate_times_by_integration`].
+///
+/// # Errors
+/// [`LiftError`]; [`LiftError::NoneBefore`] when there is no such return up to `t_max`.
+pub fn jacobi_scalar_at_crossing<S: Real>(
+    k: S,
+    p_theta: S,
+    tolerance: f64,
+    t_max: S,
+    crossing: usize,
+) -> Result<(CrossingWithJacobi<S>, Work), LiftError> {
+    let (flow, base) = posed(k, p_theta)?;
+    let system = WithColumns { flow, parameters: [()] };
+    let start: LiftedState<S> = Joined { base, columns: Columns([[S::ZERO, -S::ONE, S::ZERO]]) };
+    let mut events = Events::first(crossing, Component(1)).vanishing_at_start(1);
+    let arrival = integrate(&system, &start, (S::ZERO, t_max), &Settings::new(tolerance), &mut events)?;
+    let root: &EventRoot<S, LiftedState<S>> = crossing
+        .checked_sub(1)
+        .and_then(|last| events.found.get(last))
+        .ok_or(LiftError::NoneBefore { t_max: t_max.to_f64() })?;
+    let [r1, r2, r3, ..] = root.state.base;
+    let [d1, d2, d3] = root.state.columns.0[0];
+    Ok((CrossingWithJacobi { t: root.time, r: [r1, r2, r3], jacobi: -(r1 * d1 + r2 * d2 + r3 * d3) }, arrival.work))
 }
 
 /// `r(t)` at the given times (any order, negative too). Base flow alone; domain as above.

@@ -56,56 +56,38 @@ impl<S: Real, F: Flow<S>> EventFunction<S, F> for Component {
     }
 }
 
-/// One event: a zero of the function, or a cluster of zeros that rounding does not separate.
+/// A zero of the function on a step, or a cluster of zeros that rounding does not separate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct EventRoot<S, State> {
-    /// Time of the event.
-    pub time: S,
-    /// How far from `time` rounding inside this step may have moved the zero (half the width of a cluster); what was
-    /// lost before the step is not in it.
+pub struct ZeroCluster<S> {
+    /// Where, from the start of the step (a hair before it, if the step before has held it back).
+    pub offset: S,
+    /// How far from `offset` rounding inside this step may have moved the zero (half the width of a cluster).
     pub blur: S,
     /// Number of zeros in the cluster; 1 for a simple zero.
     pub multiplicity: usize,
-    /// The state at `time`.
-    pub state: State,
 }
 
-/// Finds the zeros of an event function, in the order of the integration.
-pub struct Events<E, S: Real, F: Flow<S>> {
+/// Visits the zeros of an event function step by step, in the order of the integration: what observers are built from.
+#[derive(Clone, Copy, Debug)]
+pub struct Zeros<E, S> {
     function: E,
-    armed_after: Option<S>,
     vanishing_order: usize,
-    wanted: usize,
-    /// What was found so far.
-    pub found: Vec<EventRoot<S, F::State<S>>>,
-    /// A root that touches the end of the last step, held back until the next step has been seen.
-    held: Option<EventRoot<S, F::State<S>>>,
-    /// 1 forward in time, −1 backward.
-    direction: S,
+    /// A zero that touches the end of the last step, held back until the next step has been seen.
+    held: Option<ZeroCluster<S>>,
 }
 
-impl<E: EventFunction<S, F>, S: Real, F: Flow<S>> Events<E, S, F> {
-    /// Looks for the first `wanted` events; the integration stops once they are found.
-    pub fn first(wanted: usize, function: E) -> Self {
-        let found = Vec::with_capacity(wanted.min(64));
-        Events { function, armed_after: None, vanishing_order: 0, wanted, found, held: None, direction: S::ONE }
-    }
-
-    /// The function is known to vanish to this order at the start: those roots are divided out.
-    pub fn vanishing_at_start(mut self, order: usize) -> Self {
-        self.vanishing_order = order;
-        self
-    }
-
-    /// Events up to and at this time (in the direction of the integration) are not reported.
-    pub fn armed_after(mut self, time: S) -> Self {
-        self.armed_after = Some(time);
-        self
+impl<E, S: Real> Zeros<E, S> {
+    /// Of this function, which is known to vanish to this order at the start of the integration.
+    pub fn new(function: E, vanishing_order: usize) -> Self {
+        Zeros { function, vanishing_order, held: None }
     }
 
     /// The function's coefficients in units of the step, `u = offset / length`, so that they are comparable and the
     /// interval is `[0, 1]`; the first `shift` left out. With their number and the noise.
-    fn expand(&self, step: &Step<'_, S, F>, shift: usize) -> (EventSeries<S>, usize, S) {
+    fn expand<F: Flow<S>>(&self, step: &Step<'_, S, F>, shift: usize) -> (EventSeries<S>, usize, S)
+    where
+        E: EventFunction<S, F>,
+    {
         let order = step.jet.order();
         let unit = S::EPSILON * self.function.magnitude(step.jet, step.length);
         let highest = (E::DEGREE * order).min(MAX_COEFFICIENTS - 1);
@@ -129,16 +111,100 @@ impl<E: EventFunction<S, F>, S: Real, F: Flow<S>> Events<E, S, F> {
         }
     }
 
-    fn report(&mut self, root: EventRoot<S, F::State<S>>, direction: S, work: &mut Work) -> ControlFlow<()> {
-        let armed = match self.armed_after {
-            Some(time) => (root.time - time) * direction > S::ZERO,
-            None => true,
-        };
-        if armed {
-            work.roots_found += 1;
-            self.found.push(root);
+    /// Visits the zeros on one step. Guarantee: over all steps every zero is visited once.
+    pub fn visit<F: Flow<S>>(
+        &mut self,
+        step: &Step<'_, S, F>,
+        work: &mut Work,
+        mut visitor: impl FnMut(ZeroCluster<S>, &mut Work) -> ControlFlow<()>,
+    ) -> ControlFlow<()>
+    where
+        E: EventFunction<S, F>,
+    {
+        work.event_evaluations += 1;
+        let shift = if step.first { self.vanishing_order } else { 0 };
+        let (scaled, count, noise) = self.expand(step, shift);
+        let mut previous = self.held.take();
+        let rest = scaled[1..count].iter().fold(noise, |sum, c| sum + c.abs());
+        if scaled[0].abs() <= rest {
+            work.root_isolations += 1;
+            let held = &mut self.held;
+            visit_unit_interval_roots(&scaled[..count], noise, |cluster| {
+                let mut zero = on_step(&cluster, step.length);
+                if let Some(before) = previous.take() {
+                    if cluster.lower <= S::ZERO {
+                        // Both sides of the joint see it: one zero.
+                        zero.blur = zero.blur.max(before.blur);
+                        zero.multiplicity = zero.multiplicity.max(before.multiplicity);
+                    } else {
+                        work.roots_found += 1;
+                        visitor(before, work)?;
+                    }
+                }
+                if cluster.upper >= S::ONE && !step.last {
+                    *held = Some(ZeroCluster { offset: zero.offset - step.length, ..zero });
+                    return ControlFlow::Continue(());
+                }
+                work.roots_found += 1;
+                visitor(zero, work)
+            })?;
         }
-        if self.found.len() >= self.wanted { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        // Otherwise the constant term outweighs all others: no zero on this step.
+        match previous {
+            Some(zero) => {
+                work.roots_found += 1;
+                visitor(zero, work)
+            }
+            None => ControlFlow::Continue(()),
+        }
+    }
+}
+
+fn on_step<S: Real>(cluster: &RootCluster<S>, length: S) -> ZeroCluster<S> {
+    let blur = (cluster.upper - cluster.lower) * S::from_f64(0.5) * length.abs();
+    ZeroCluster { offset: cluster.root * length, blur, multiplicity: cluster.multiplicity }
+}
+
+/// One event.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EventRoot<S, State> {
+    /// Time of the event.
+    pub time: S,
+    /// How far from `time` rounding inside this step may have moved the zero (half the width of a cluster); what was
+    /// lost before the step is not in it.
+    pub blur: S,
+    /// Number of zeros in the cluster; 1 for a simple zero.
+    pub multiplicity: usize,
+    /// The state at `time`.
+    pub state: State,
+}
+
+/// Collects the first zeros of an event function, in the order of the integration, then stops it.
+pub struct Events<E, S: Real, F: Flow<S>> {
+    zeros: Zeros<E, S>,
+    armed_after: Option<S>,
+    wanted: usize,
+    /// What was found so far.
+    pub found: Vec<EventRoot<S, F::State<S>>>,
+}
+
+impl<E: EventFunction<S, F>, S: Real, F: Flow<S>> Events<E, S, F> {
+    /// Looks for the first `wanted` events; the integration stops once they are found.
+    pub fn first(wanted: usize, function: E) -> Self {
+        let found = Vec::with_capacity(wanted.min(64));
+        Events { zeros: Zeros::new(function, 0), armed_after: None, wanted, found }
+    }
+
+    /// The function is known to vanish to this order at the start: those roots are divided out.
+    pub fn vanishing_at_start(mut self, order: usize) -> Self {
+        self.zeros.vanishing_order = order;
+        self
+    }
+
+    /// Events up to and at this time (in the direction of the integration) are not reported.
+    pub fn armed_after(mut self, time: S) -> Self {
+        self.armed_after = Some(time);
+        self
     }
 }
 
@@ -147,56 +213,17 @@ impl<E: EventFunction<S, F>, S: Real, F: Flow<S>> Observer<S, F> for Events<E, S
         if self.found.len() >= self.wanted {
             return ControlFlow::Break(());
         }
-        work.event_evaluations += 1;
-        let shift = if step.first { self.vanishing_order } else { 0 };
-        let (scaled, count, noise) = self.expand(step, shift);
         let direction = if step.length < S::ZERO { -S::ONE } else { S::ONE };
-        self.direction = direction;
-        let rest = scaled[1..count].iter().fold(noise, |sum, c| sum + c.abs());
-        if scaled[0].abs() > rest {
-            // No root on this step: the constant term outweighs all others.
-            return match self.held.take() {
-                Some(root) => self.report(root, direction, work),
-                None => ControlFlow::Continue(()),
-            };
-        }
-        work.root_isolations += 1;
-        let mut previous = self.held.take();
-        let flow = visit_unit_interval_roots(&scaled[..count], noise, |cluster| {
-            let mut root = locate(&cluster, step);
-            if let Some(before) = previous.take() {
-                if cluster.lower <= S::ZERO {
-                    // Both sides of the joint see it: one root.
-                    root.blur = root.blur.max(before.blur);
-                    root.multiplicity = root.multiplicity.max(before.multiplicity);
-                } else {
-                    self.report(before, direction, work)?;
-                }
+        let (found, wanted, armed_after) = (&mut self.found, self.wanted, self.armed_after);
+        self.zeros.visit(step, work, |zero, _| {
+            let time = step.time(zero.offset);
+            if armed_after.is_none_or(|armed| (time - armed) * direction > S::ZERO) {
+                let (blur, multiplicity) = (zero.blur, zero.multiplicity);
+                found.push(EventRoot { time, blur, multiplicity, state: step.state(zero.offset) });
             }
-            if cluster.upper >= S::ONE {
-                self.held = Some(root);
-                return ControlFlow::Continue(());
-            }
-            self.report(root, direction, work)
-        });
-        flow?;
-        match previous {
-            Some(root) => self.report(root, direction, work),
-            None => ControlFlow::Continue(()),
-        }
+            if found.len() >= wanted { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })
     }
-
-    fn finish(&mut self, work: &mut Work) {
-        if let Some(root) = self.held.take() {
-            let _ = self.report(root, self.direction, work);
-        }
-    }
-}
-
-fn locate<S: Real, F: Flow<S>>(cluster: &RootCluster<S>, step: &Step<'_, S, F>) -> EventRoot<S, F::State<S>> {
-    let offset = cluster.root * step.length;
-    let blur = (cluster.upper - cluster.lower) * S::from_f64(0.5) * step.length.abs();
-    EventRoot { time: step.time(offset), blur, multiplicity: cluster.multiplicity, state: step.state(offset) }
 }
 
 #[cfg(test)]

@@ -248,10 +248,24 @@ where
 /// Coefficient `n` of the product of two series, `Σ a_i b_{n−i}`.
 #[inline(always)]
 pub fn convolve<S: Algebra>(a: &Series<S>, b: &Series<S>, n: usize) -> S {
-    let (a, b) = (&a[..=n], &b[..=n]);
-    let mut sum = a[0] * b[n];
-    for i in 1..=n {
-        sum = sum + a[i] * b[n - i];
+    reversed_dot(&a[..=n], &b[..=n])
+}
+
+/// `Σ a_i b_{len−1−i}` of two slices of one length. Four sums run beside each other, so that none waits for the last
+/// addition of another; their order is fixed by the source, hence the bits too.
+#[inline(always)]
+fn reversed_dot<S: Algebra>(a: &[S], b: &[S]) -> S {
+    let mut sums = [S::number(0.0); 4];
+    let (a_fours, b_fours) = (a.chunks_exact(4), b.rchunks_exact(4));
+    let (a_rest, b_rest) = (a_fours.remainder(), b_fours.remainder());
+    for (u, v) in a_fours.zip(b_fours) {
+        for (j, sum) in sums.iter_mut().enumerate() {
+            *sum = *sum + u[j] * v[3 - j];
+        }
+    }
+    let mut sum = (sums[0] + sums[1]) + (sums[2] + sums[3]);
+    for (u, v) in a_rest.iter().zip(b_rest.iter().rev()) {
+        sum = sum + *u * *v;
     }
     sum
 }
@@ -259,22 +273,15 @@ pub fn convolve<S: Algebra>(a: &Series<S>, b: &Series<S>, n: usize) -> S {
 /// Coefficient `n` of the product of two polynomials given by all their coefficients (of any number).
 #[inline(always)]
 pub fn product<S: Algebra>(a: &[S], b: &[S], n: usize) -> S {
-    let mut sum = S::number(0.0);
-    for i in (n + 1).saturating_sub(b.len())..a.len().min(n + 1) {
-        sum = sum + a[i] * b[n - i];
-    }
-    sum
+    let (first, end) = ((n + 1).saturating_sub(b.len()), a.len().min(n + 1));
+    if first < end { reversed_dot(&a[first..end], &b[n + 1 - end..n + 1 - first]) } else { S::number(0.0) }
 }
 
 /// Coefficient `n` of the square of a series: half the products of [`convolve`].
 #[inline(always)]
 pub fn convolve_square<S: Algebra>(a: &Series<S>, n: usize) -> S {
-    let a = &a[..=n];
     let half = n.div_ceil(2);
-    let mut sum = S::number(0.0);
-    for i in 0..half {
-        sum = sum + a[i] * a[n - i];
-    }
+    let sum = reversed_dot(&a[..half], &a[n + 1 - half..=n]);
     let doubled = sum + sum;
     if n.is_multiple_of(2) { doubled + a[n / 2] * a[n / 2] } else { doubled }
 }

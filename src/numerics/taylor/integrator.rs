@@ -120,6 +120,8 @@ pub struct Step<'a, S: Real, F: Flow<S>> {
     pub length: S,
     /// Whether this is the first step.
     pub first: bool,
+    /// Whether this is the last step of the span.
+    pub last: bool,
     rest: &'a F::State<S>,
 }
 
@@ -144,8 +146,6 @@ impl<S: Real, F: Flow<S>> Step<'_, S, F> {
 pub trait Observer<S: Real, F: Flow<S>> {
     /// Called after each step's series is known and before the state moves on; `Break` ends the integration there.
     fn observe(&mut self, step: &Step<'_, S, F>, work: &mut Work) -> ControlFlow<()>;
-    /// Called once at the end of the span (not after a `Break`).
-    fn finish(&mut self, _work: &mut Work) {}
 }
 
 /// Looks at nothing.
@@ -162,10 +162,6 @@ impl<S: Real, F: Flow<S>, A: Observer<S, F>, B: Observer<S, F>> Observer<S, F> f
         let first = self.0.observe(step, work);
         let second = self.1.observe(step, work);
         if first.is_break() { first } else { second }
-    }
-    fn finish(&mut self, work: &mut Work) {
-        self.0.finish(work);
-        self.1.finish(work);
     }
 }
 
@@ -207,7 +203,6 @@ pub fn integrate<S: Real, F: Flow<S>, O: Observer<S, F>>(
     loop {
         let remaining = (span.1 - time.value) - time.rest;
         if remaining * direction <= S::ZERO {
-            observer.finish(&mut work);
             return Ok(Arrival { time: span.1, state, stopped: false, work });
         }
         if work.steps >= settings.maximum_steps {
@@ -229,7 +224,7 @@ pub fn integrate<S: Real, F: Flow<S>, O: Observer<S, F>>(
         work.steps += 1;
         work.flow_evaluations += order as u64;
         work.tangent_evaluations += (order * F::COLUMNS) as u64;
-        let step = Step { flow, jet: &jet, start: time, length, first: work.steps == 1, rest: &rest };
+        let step = Step { flow, jet: &jet, start: time, length, first: work.steps == 1, last, rest: &rest };
         if observer.observe(&step, &mut work).is_break() {
             return Ok(Arrival { time: time.plus(S::ZERO), state, stopped: true, work });
         }

@@ -1,0 +1,11 @@
+//! Effects of the spin problem (sections 4 and 5.2): the metric `(dr1² + k² dr3²)/r2²` on S², starts on the equator.
+
+pub mod branch;
+pub mod by_integration;
+pub mod chart;
+pub mod conjugate_locus;
+pub mod contact;
+pub mod double_points;
+pub mod geodesics;
+pub mod loops;
+pub mod momenta;

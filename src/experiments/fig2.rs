@@ -1,0 +1,289 @@
+//! Figure 2 (section 3.3.3): the potentials `V(φ, p_θ) = p_θ²/μ(φ)` of the motion in φ at arc length, `φ'² + V = 1`.
+//!
+//! V grows with `p_θ` at every φ. Where V < 1 the extremal moves; it turns where V = 1. The grey zone holds the potentials of oscillating extremals,
+//! `B^(−1/2) < p_θ < A^(−1/2)`; its lower border, the separatrix, has the largest value 1 at the edges `φ = ±K(k)/α`, its upper border, the equator,
+//! the least value 1 at φ = 0. The darker zone holds those that start at `φ0`: up to `p_θ = √μ(φ0) = √(2/z(φ0))`. φ is a length, V a number.
+//!
+//! The article states no `φ0` for this figure: the config's is a choice.
+
+use super::definition::{Definition, Experiment, findings_kind, picture_kind};
+use super::findings::unread;
+use super::nodes::Nodes;
+use crate::contract::accuracy::Accuracy;
+use crate::contract::claim::{Claim, Evidence, Test};
+use crate::contract::config::{Invalid, Validate};
+use crate::contract::node::{Kind, NodeError};
+use crate::contract::value::NamedValue;
+use crate::effects::scene::{Effect, Inertia, Phi0Family, Scene, SerretAndoyerMetric};
+use crate::effects::serret_andoyer::geodesics::{EQUATOR, OSCILLATING, SEPARATRIX};
+use crate::effects::serret_andoyer::potential::{FAMILY, Potential, START};
+use crate::plot::axis::Axis;
+use crate::plot::mark::{Area, At, Curve, DirectLabel, Points, RuleLine, Side};
+use crate::plot::picture::{Panel, Picture, Width};
+use crate::plot::role::Role;
+use crate::table::{Table, Tables};
+use serde::{Deserialize, Serialize};
+
+/// Parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Params {
+    /// Body, start, Clairaut constants, effects, accuracy.
+    pub scene: Scene<SerretAndoyerMetric, Phi0Family>,
+    /// What is drawn.
+    pub picture: Shown,
+}
+
+/// What is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Shown {
+    /// Points of each curve: odd, 3 to 9999.
+    pub points: usize,
+}
+
+impl Validate for Params {
+    fn validate(&self) -> Result<(), Invalid> {
+        self.scene.metric.validate()?;
+        self.scene.start.validate(self.scene.metric.serret_andoyer)?;
+        self.scene.validate_effects(&[Effect::Potential])?;
+        let points = self.picture.points;
+        let odd = (3..=9999).contains(&points) && points % 2 == 1;
+        Invalid::unless(odd, "picture.points", points, "an odd number from 3 to 9999")
+    }
+}
+
+/// The experiment.
+pub const EXPERIMENT: Experiment = Experiment::of::<Fig2>();
+
+const PICTURE: Kind = picture_kind("fig2-picture", &["experiments/fig2.rs", "plot", "table"]);
+const FINDINGS: Kind = findings_kind("fig2-findings", &["experiments/fig2.rs", "experiments/findings.rs", "table"]);
+
+struct Fig2;
+
+/// One potential of the table.
+struct Member {
+    curve: String,
+    class: String,
+    p_theta: f64,
+    points: Vec<(f64, f64)>,
+}
+
+fn members(table: &Table) -> Result<Vec<Member>, NodeError> {
+    let (curve, class) = (table.texts("curve").map_err(unread)?, table.texts("class").map_err(unread)?);
+    let column = |name: &str| table.f64s(name).map_err(unread);
+    let (p_theta, phi, potential) = (column("p_theta")?, column("phi")?, column("potential")?);
+    let mut members: Vec<Member> = Vec::new();
+    for row in 0..table.rows() {
+        // φ runs upwards inside a curve.
+        if row == 0 || phi[row] < phi[row - 1] {
+            let (curve, class) = (curve[row].clone(), class[row].clone());
+            members.push(Member { curve, class, p_theta: p_theta[row], points: Vec::new() });
+        }
+        if let Some(member) = members.last_mut() {
+            member.points.push((phi[row], potential[row]));
+        }
+    }
+    Ok(members)
+}
+
+fn member<'a>(members: &'a [Member], curve: &str) -> Result<&'a Member, NodeError> {
+    members.iter().find(|m| m.curve == curve).ok_or_else(|| NodeError::new(format!("no potential {curve}")))
+}
+
+impl Definition for Fig2 {
+    type Params = Params;
+
+    const ID: &'static str = "fig2";
+    const TITLE: &'static str = "potentials of the motion in φ";
+    const PLACE: &'static str = "Figure 2";
+    const PICTURE: &'static Kind = &PICTURE;
+    const FINDINGS: &'static Kind = &FINDINGS;
+
+    fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
+        params.scene.accuracy = accuracy;
+    }
+
+    fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        let Params { scene, picture } = params;
+        let potential = Potential {
+            body: scene.metric.serret_andoyer.into(),
+            phi0: scene.start.phi0,
+            p_theta: scene.start.p_theta.values(),
+            points: picture.points,
+        };
+        let own = [("phi0", "scene.start.phi0"), ("p_theta", "scene.start.p_theta"), ("points", "picture.points")]
+            .map(|(leaf, key)| (leaf, key.to_owned()));
+        let origins = [Inertia::origins("serret-andoyer"), own.to_vec()].concat();
+        nodes.add("potential", &[], potential, &[], &origins)?;
+        Ok(())
+    }
+
+    fn picture(params: &Params, tables: &Tables) -> Result<Picture, NodeError> {
+        let members = members(tables.get("potential").map_err(unread)?)?;
+        let (separatrix, equator, start) =
+            (member(&members, SEPARATRIX)?, member(&members, EQUATOR)?, member(&members, START)?);
+        let edge = separatrix.points.last().map_or(0.0, |point| point.0);
+        let phi0 = params.scene.start.phi0;
+        let lowest = members.iter().flat_map(|m| &m.points).map(|p| p.1).fold(f64::INFINITY, f64::min);
+        let highest = members.iter().flat_map(|m| &m.points).map(|p| p.1).fold(0.0, f64::max);
+        let margin = 0.06 * (highest - lowest);
+        let mut panel = Panel::new(
+            Axis::new("*φ*").fixed(-edge, edge).ticks_at([
+                (-edge, "−*K*/*α*".to_owned()),
+                (phi0, "*φ*_0".to_owned()),
+                (0.0, "0".to_owned()),
+                (-phi0, "−*φ*_0".to_owned()),
+                (edge, "*K*/*α*".to_owned()),
+            ]),
+            Axis::new("*V*(*φ*, *p*_*θ*)").fixed(lowest - margin, highest + margin),
+        )
+        .mark(
+            Area::new(Role::OscillationZone, separatrix.points.clone(), equator.points.clone())
+                .legend("oscillating, *B*^{−1/2} < *p*_*θ* < *A*^{−1/2}"),
+        )
+        .mark(
+            Area::new(Role::StartZone, separatrix.points.clone(), start.points.clone())
+                .legend("of these, those that start at *φ*_0"),
+        )
+        .mark(RuleLine::horizontal(Role::Reference, 1.0))
+        .mark(RuleLine::vertical(Role::Reference, phi0));
+        for (role, curve, label, at, side) in [
+            (Role::Separatrix, separatrix, "separatrix, *B*^{−1/2}", 0.5, Side::Below),
+            (Role::Equator, equator, "equator, *A*^{−1/2}", 0.5, Side::Above),
+            (Role::Potential, start, "(2/*z*(*φ*_0))^{1/2}", 0.88, Side::AboveLeft),
+        ] {
+            let label = DirectLabel::new(label).at(At::Fraction(at)).side(side);
+            panel = panel.mark(Curve::new(role, curve.points.clone()).label(label));
+        }
+        let family: Vec<&Member> = members.iter().filter(|m| m.curve == FAMILY).collect();
+        let last = family.len().saturating_sub(1).max(1) as f64;
+        for (i, member) in family.iter().enumerate() {
+            let text = format!("{}", member.p_theta);
+            let label = DirectLabel::new(text).at(At::Fraction(0.86));
+            panel =
+                panel.mark(Curve::new(Role::Potential, member.points.clone()).tone(i as f64 / last).label(label));
+        }
+        let panel = panel.mark(Points::new(Role::Start, vec![(phi0, 1.0)]));
+        let Inertia { a, b, c } = params.scene.metric.serret_andoyer;
+        Ok(Picture::new(Width::Single, 88.0, "Potentials of the motion in φ")
+            .caption(format!(
+                "Potentials V(φ, p_θ) = p_θ²/μ(φ) of the motion in φ at arc length, φ'² + V = 1 (section 3.3.3), over the strip |φ| ≤ \
+                 K(k)/α; A = {a}, B = {b}, C = {c}. An extremal moves where V < 1 and turns where V = 1 (dashed). Grey: potentials of \
+                 oscillating extremals, between the separatrix p_θ = B^(−1/2), whose largest value is 1 at the edges, and the equator \
+                 p_θ = A^(−1/2), whose least value is 1. Darker: those of them that start at φ0 = {phi0} (a choice: the article states \
+                 none), up to p_θ = (2/z(φ0))^(1/2), which turns there (cross). At the curves: p_θ. Below the separatrix \
+                 extremals rotate. {} curves of {} points, closed form, relative error 1e-15.",
+                members.len(),
+                params.picture.points
+            ))
+            .panel(panel))
+    }
+
+    fn values(_: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
+        let members = members(tables.get("potential").map_err(unread)?)?;
+        let mut values = Vec::new();
+        let mut add = |name: &str, value: f64, relative: f64, meaning: &str, route: &str| {
+            let (name, meaning, route) = (name.to_owned(), meaning.to_owned(), route.to_owned());
+            let error = relative * f64::EPSILON * value;
+            values.push(NamedValue { name, value, unit: "1".to_owned(), meaning, route, error });
+        };
+        let (separatrix, equator, start) =
+            (member(&members, SEPARATRIX)?, member(&members, EQUATOR)?, member(&members, START)?);
+        add("p_theta_separatrix", separatrix.p_theta, 1.0, "Clairaut's constant of the separatrix", "B^(−1/2)");
+        add("p_theta_equator", equator.p_theta, 1.0, "Clairaut's constant of the equator", "A^(−1/2)");
+        add("p_theta_start", start.p_theta, 8.0, "largest Clairaut constant at φ0", "√μ(φ0) = √(2/z(φ0))");
+        let separatrix_largest = separatrix.points.iter().map(|p| p.1).fold(0.0, f64::max);
+        let equator_least = equator.points.iter().map(|p| p.1).fold(f64::INFINITY, f64::min);
+        let route = "over the points of the curve, edges and equator among them";
+        add("separatrix_largest_potential", separatrix_largest, 4.0, "largest value of V(φ, B^(−1/2))", route);
+        add("equator_least_potential", equator_least, 4.0, "least value of V(φ, A^(−1/2))", route);
+        Ok(values)
+    }
+
+    fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
+        let mut members = members(tables.get("potential").map_err(unread)?)?;
+        members.sort_by(|a, b| a.p_theta.total_cmp(&b.p_theta));
+        let values = Self::values(params, tables)?;
+        let value = |name: &str| {
+            let found = values.iter().find(|value| value.name == name).map(|value| value.value);
+            found.ok_or_else(|| NodeError::new(format!("no value {name}")))
+        };
+        let (mut pairs, mut falling, mut example) = (0, 0, String::new());
+        for pair in members.windows(2).filter(|pair| pair[1].p_theta > pair[0].p_theta) {
+            for (low, high) in pair[0].points.iter().zip(&pair[1].points) {
+                pairs += 1;
+                if high.1 <= low.1 {
+                    falling += 1;
+                    example = format!("φ = {:?}: p_θ = {:?} and {:?}", low.0, pair[0].p_theta, pair[1].p_theta);
+                }
+            }
+        }
+        let (low, high) = (value("p_theta_separatrix")?, value("p_theta_start")?);
+        let family: Vec<&Member> = members.iter().filter(|m| m.curve == FAMILY || m.curve == START).collect();
+        let wrong: Vec<&&Member> = family
+            .iter()
+            .filter(|m| (m.class == OSCILLATING) != (m.p_theta > low && m.p_theta <= high))
+            .collect();
+        let claim = |id: &str, statement: &str, test: Test| Claim {
+            id: id.to_owned(),
+            place: "section 3.3.3, before Figure 2".to_owned(),
+            statement: statement.to_owned(),
+            evidence: Evidence::Direct(test),
+            note: String::new(),
+        };
+        let one = |ours: f64| Test::Equal {
+            printed: 1.0,
+            ours,
+            tolerance: 4.0 * f64::EPSILON,
+            reason: "rounding of a product of three".to_owned(),
+        };
+        Ok(vec![
+            claim(
+                "increasing",
+                "V(φ, p_θ) increases with p_θ at every φ.",
+                Test::None { counterexamples: falling, cases: pairs, example },
+            ),
+            claim(
+                "separatrix",
+                "p_θ = B^(−1/2) describes the separatrix: its potential reaches 1 only at the edges.",
+                one(value("separatrix_largest_potential")?),
+            ),
+            claim(
+                "equator",
+                "p_θ = A^(−1/2) is the largest constant: its potential is at least 1 everywhere.",
+                one(value("equator_least_potential")?),
+            ),
+            claim(
+                "start_zone",
+                "Oscillating trajectories from φ0 have p_θ in (B^(−1/2), (2/z(φ0))^(1/2)].",
+                Test::None {
+                    counterexamples: wrong.len() as u64,
+                    cases: family.len() as u64,
+                    example: wrong.first().map_or(String::new(), |m| format!("p_θ = {:?}: {}", m.p_theta, m.class)),
+                },
+            ),
+        ])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::experiments::preview;
+
+    #[test]
+    fn values_and_verdicts() {
+        let preview = preview::run(&EXPERIMENT, |text| text);
+        for claim in &preview.findings.claims {
+            assert!(matches!(&claim.evidence, Evidence::Direct(test) if test.holds()), "{claim:?}");
+        }
+        let separatrix = preview.value("p_theta_separatrix");
+        assert!((separatrix - std::f64::consts::FRAC_1_SQRT_2).abs() <= f64::EPSILON * separatrix);
+        let largest = preview.value("p_theta_start");
+        assert!((largest - P_THETA_START).abs() <= 8.0 * f64::EPSILON, "{largest:?}");
+    }
+
+    /// Oracle: mpmath 1.3.0, 40 digits: 1/√(A + (B − A) sn²(0.75 √1.3 | 5/13)).
+    const P_THETA_START: f64 = 0.75214459499759531142;
+}

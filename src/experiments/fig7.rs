@@ -1,0 +1,265 @@
+//! Fig. 7 (section 5.2.2): conjugate loci of the spin problem for k < 1, with the extremals that reach them.
+//!
+//! The metric `(dr1² + k² dr3²)/r2²` on S²; start `θ = 0`, `φ = π/2` on its singular equator, `H = 1`, `p_φ = ±2`, `p_θ ∈ R`. Shown in
+//! the chart (θ, φ), φ from the pole, both in radians, θ and θ + 2π being the same. Times are in the unit that `H = 1` fixes.
+//!
+//! Hard spots: the cusp is the limit `p_θ → 0`, and it is approached slowly: for k = 0.1 while p_θ falls from 1e-4 to 1e-8. There an integration in
+//! f64 loses digits like `ε/p_θ²`, so the second route goes to double-double. The locus runs close by the pole φ = π, where the chart
+//! stretches it: between p_θ = 0.0008 and 0.001 for k = 0.1 it turns through 3 radians of θ.
+
+use super::definition::{Definition, Experiment, findings_kind, picture_kind};
+use super::nodes::Nodes;
+use super::spin_branches::{
+    Branch, ask_for_branch, contact, cusp_inset, cusp_values, largest_route_difference, name_of, no_counterexample, origins, other_half,
+    routes_agree, turned, unread,
+};
+use crate::contract::accuracy::Accuracy;
+use crate::contract::claim::Claim;
+use crate::contract::config::{Invalid, Validate};
+use crate::contract::node::{Kind, NodeError};
+use crate::contract::value::NamedValue;
+use crate::effects::scene::{BranchStart, Effect, Scene, SpinMetric};
+use crate::effects::spin::by_integration::tolerance;
+use crate::effects::spin::geodesics::Geodesics;
+use crate::plot::axis::Axis;
+use crate::plot::mark::{Curve, Points, RuleLine};
+use crate::plot::picture::{Layout, Panel, Picture, Place, Width};
+use crate::plot::role::Role;
+use crate::table::{Table, Tables};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// Parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Params {
+    /// The values of k in (0, 1), the starts, the effects, the accuracy.
+    pub scene: Scene<SpinMetric, BranchStart>,
+    /// The extremals shown.
+    pub trajectories: Trajectories,
+}
+
+/// Extremals whose ends are spread evenly along the branch `p_φ = −2`, `p_θ ≥ 0`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Trajectories {
+    /// How many, 1 to 100.
+    pub count: u32,
+    /// Largest distance of neighbouring points, radians, 0.001 to 0.5.
+    pub step: f64,
+}
+
+impl Validate for Params {
+    fn validate(&self) -> Result<(), Invalid> {
+        self.scene.metric.validate()?;
+        self.scene.metric.spin.k.validate_each("scene.metric.spin.k", "0 < k < 1 (Fig. 5 is for k ≥ 1)", |k| k < 1.0)?;
+        Invalid::unless(
+            self.scene.metric.spin.k.count() <= 12,
+            "scene.metric.spin.k",
+            format_args!("{} values", self.scene.metric.spin.k.count()),
+            "at most 12 values: one panel each",
+        )?;
+        self.scene.start.validate()?;
+        self.scene.validate_effects(&[Effect::Geodesics, Effect::ConjugateLocus])?;
+        let Trajectories { count, step } = self.trajectories;
+        Invalid::unless((1..=100).contains(&count), "trajectories.count", count, "1 to 100")?;
+        Invalid::number((1e-3..=0.5).contains(&step), "trajectories.step", step, "a number from 0.001 to 0.5 (radians)")
+    }
+}
+
+/// The experiment.
+pub const EXPERIMENT: Experiment = Experiment::of::<Fig7>();
+
+const CODE: &[&str] = &["experiments/fig7.rs", "experiments/spin_branches.rs", "plot", "table"];
+const PICTURE: Kind = picture_kind("fig7-picture", CODE);
+const FINDINGS: Kind =
+    findings_kind("fig7-findings", &["experiments/fig7.rs", "experiments/spin_branches.rs", "effects/spin/contact.rs", "geometry/spin", "numerics", "table"]);
+const GEODESICS: &str = "geodesics";
+
+struct Fig7;
+
+/// The curves of a table of geodesics, one for each extremal.
+fn curves(table: &Table) -> Result<Vec<Vec<(f64, f64)>>, NodeError> {
+    let (index, theta) = (table.ints("index").map_err(unread)?, table.f64s("theta").map_err(unread)?);
+    let phi = table.f64s("phi").map_err(unread)?;
+    let mut curves: Vec<Vec<(f64, f64)>> = Vec::new();
+    for row in 0..table.rows() {
+        if row == 0 || index[row] != index[row - 1] {
+            curves.push(Vec::new());
+        }
+        if let Some(curve) = curves.last_mut() {
+            curve.push((theta[row], phi[row]));
+        }
+    }
+    Ok(curves)
+}
+
+/// How far θ falls in all along a curve.
+fn decrease(curve: &[(f64, f64)]) -> f64 {
+    curve.windows(2).map(|pair| (pair[0].0 - pair[1].0).max(0.0)).sum()
+}
+
+fn branches<'a>(params: &Params, tables: &'a Tables) -> Result<Vec<Branch<'a>>, NodeError> {
+    if !params.scene.asks_for(Effect::ConjugateLocus) {
+        return Ok(Vec::new());
+    }
+    params.scene.metric.spin.k.values().into_iter().map(|k| Branch::of(tables, k)).collect()
+}
+
+fn panel(params: &Params, tables: &Tables, k: f64) -> Result<Panel, NodeError> {
+    let theta = Axis::new("*θ*").fixed(-1.12 * PI, 1.12 * PI).pi_ticks();
+    let phi = Axis::new("*φ*").fixed(0.0, PI).pi_ticks();
+    let mut panel = Panel::new(theta, phi).equal().title(format!("*k* = {k}"));
+    panel = panel
+        .mark(RuleLine::horizontal(Role::Equator, FRAC_PI_2).legend("equator"))
+        .mark(RuleLine::vertical(Role::Reference, PI).legend("*θ* = ±π, one meridian"))
+        .mark(RuleLine::vertical(Role::Reference, -PI));
+    if params.scene.asks_for(Effect::Geodesics) {
+        let table = tables.get(&name_of(GEODESICS, k)).map_err(unread)?;
+        let text = "extremals up to their first conjugate points";
+        panel = panel.marks(curves(table)?.into_iter().map(|points| Curve::new(Role::Geodesic, points).legend(text)));
+    }
+    if params.scene.asks_for(Effect::ConjugateLocus) {
+        let branch = Branch::of(tables, k)?;
+        let half = branch.half();
+        for half in [half.clone(), other_half(&half)] {
+            panel = panel.marks(
+                [-1.0, 0.0, 1.0].map(|turns| Curve::new(Role::ConjugateLocus, turned(&half, turns)).legend("conjugate locus")),
+            );
+        }
+        let cusp = branch.phi[0];
+        let cusps = [-PI, PI].into_iter().flat_map(|theta| [(theta, cusp), (theta, PI - cusp)]).collect();
+        panel = panel.mark(Points::new(Role::CuspPoint, cusps).legend("cusp, *p*_θ = 0"));
+        panel = panel.inset(cusp_inset(&branch, Place::At(0.075, 0.29), (0.27, 0.42)));
+    }
+    Ok(panel.mark(Points::new(Role::Start, vec![(0.0, FRAC_PI_2)]).legend("start")))
+}
+
+impl Definition for Fig7 {
+    type Params = Params;
+
+    const ID: &'static str = "fig7";
+    const TITLE: &'static str = "conjugate loci of the spin problem for k < 1";
+    const PLACE: &'static str = "Figure 7, section 5.2.2";
+    const PICTURE: &'static Kind = &PICTURE;
+    const FINDINGS: &'static Kind = &FINDINGS;
+
+    fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
+        params.scene.accuracy = accuracy;
+    }
+
+    fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        let (sweep, p_theta) = (&params.scene.metric.spin.k, params.scene.start.p_theta);
+        for (index, k) in sweep.values().into_iter().enumerate() {
+            if params.scene.asks_for(Effect::Geodesics) {
+                let Trajectories { count, step } = params.trajectories;
+                let geodesics = Geodesics { k, p_theta, count, step, tolerance: tolerance(params.scene.accuracy) };
+                let mut origins = origins(sweep, index);
+                origins.push(("count", "trajectories.count".to_owned()));
+                origins.push(("step", "trajectories.step".to_owned()));
+                origins.push(("tolerance", "scene.accuracy".to_owned()));
+                nodes.add(GEODESICS, &[("k", format!("{k:?}"))], geodesics, &[], &origins)?;
+            }
+            if params.scene.asks_for(Effect::ConjugateLocus) {
+                ask_for_branch(nodes, (sweep, index), p_theta, params.scene.accuracy)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn picture(params: &Params, tables: &Tables) -> Result<Picture, NodeError> {
+        let ks = params.scene.metric.spin.k.values();
+        let columns = if ks.len() > 1 { 2 } else { 1 };
+        let rows = ks.len().div_ceil(columns);
+        let mut caption = "Spin problem, start (θ, φ) = (0, π/2) on the equator, H = 1, in the chart (θ, φ), φ from the pole.".to_owned();
+        if params.scene.asks_for(Effect::ConjugateLocus) {
+            let counts: Vec<String> =
+                branches(params, tables)?.iter().map(|branch| format!("{} for k = {}", branch.p_theta.len(), branch.k)).collect();
+            caption.push_str(&format!(
+                " Thick: the conjugate locus for p_φ(0) = ±2 and p_θ(0) of both signs, points where the phase of the closed form is π, relative \
+                 error of t1 below 1e-14; one branch, p_φ = −2, p_θ ≥ 0, has {} points, the others are its mirror images. It is continued beyond \
+                 θ = ±π, which is one meridian, to show the cusps: the limits p_θ → 0, on the far side of the equator. Insets: the cusp of p_φ = −2 at its own scale, as difference of φ over difference of θ to its tip, which points away from the \
+                 equator; the smaller k, the smaller it is (for k = 0.2 less than 1e-14).",
+                counts.join(", ")
+            ));
+        }
+        if params.scene.asks_for(Effect::Geodesics) {
+            caption.push_str(&format!(
+                " Thin: {} extremals with p_φ = −2, p_θ ≥ 0 up to their first conjugate points, which are spread evenly along that branch; \
+                 h' = ω × h, r' = ω × r integrated in R³ × so(3)*.",
+                params.trajectories.count
+            ));
+        }
+        let mut picture = Picture::new(Width::Double, 45.0 * rows as f64 + 12.0, "Conjugate loci of the spin problem for k < 1")
+            .caption(caption)
+            .layout(Layout::Columns(columns));
+        for k in ks {
+            picture = picture.panel(panel(params, tables, k)?);
+        }
+        Ok(picture)
+    }
+
+    fn values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
+        let branches = branches(params, tables)?;
+        if branches.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut values = cusp_values(&branches);
+        values.push(largest_route_difference(tables)?);
+        Ok(values)
+    }
+
+    fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
+        let mut claims = Vec::new();
+        if params.scene.asks_for(Effect::Geodesics) {
+            let mut cases = Vec::new();
+            for k in params.scene.metric.spin.k.values() {
+                let table = tables.get(&name_of(GEODESICS, k)).map_err(unread)?;
+                let falls = curves(table)?.iter().map(|curve| decrease(curve)).fold(0.0, f64::max);
+                cases.push((falls > 1e-6, format!("k = {k:?}: the largest decrease is {falls:e}")));
+            }
+            claims.push(no_counterexample(
+                ("theta_not_monotone", "section 5.2.2", "For k < 1 the variable θ is not monotone (along some extremal, up to t1)."),
+                cases,
+                "",
+            ));
+        }
+        let branches = branches(params, tables)?;
+        if !branches.is_empty() {
+            let cases = branches.iter().map(|branch| {
+                let beyond = branch.t1[0] > PI && branch.t1[0] < 1.5 * PI && branch.phi[0] > FRAC_PI_2;
+                (beyond, format!("k = {:?}: t1 = {:?}, φ = {:?}", branch.k, branch.t1[0], branch.phi[0]))
+            });
+            claims.push(no_counterexample(
+                ("cusp_stays_beyond_equator", "section 5.2.3", "For k < 1 the cusp does not cross the equator."),
+                cases,
+                "For p_θ = 0 and k < 1, t1 solves l tan t = tanh(l t), l² = 1/k² − 1, which has its first root in (π, 3π/2) for every l: \
+                 between the equator, reached as k → 0, and the round case.",
+            ));
+            claims.push(contact(&branches));
+            claims.push(routes_agree(tables)?);
+        }
+        Ok(claims)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::claim::{Evidence, Test};
+    use crate::experiments::preview;
+
+    #[test]
+    fn values_and_claims() {
+        let preview = preview::run(&EXPERIMENT, |text| text);
+        for claim in &preview.findings.claims {
+            println!("{claim:#?}");
+            assert!(matches!(&claim.evidence, Evidence::Direct(test) if test.holds()), "{claim:?}");
+        }
+        for value in &preview.findings.values {
+            println!("{} = {:?} ± {:e}", value.name, value.value, value.error);
+        }
+        assert!(preview.value("largest_route_difference") < 1e-13);
+        let _ = Test::holds;
+    }
+}

@@ -1,0 +1,468 @@
+//! What the figures of spin conjugate loci (Figs. 5, 7, 8) share: the nodes of a branch, its table unpacked, its values and claims.
+//!
+//! A branch is `p_φ(0) = −2`, `p_θ(0) ≥ 0`. For equal k and equal sampling all figures ask for equal nodes, so the work is done once. The other
+//! three branches are mirror images, made here: `p_θ < 0` is `θ → −θ`, `p_φ = +2` is `φ → π − φ`.
+
+use super::nodes::{Nodes, TableRef};
+use crate::contract::accuracy::Accuracy;
+use crate::contract::claim::{Claim, Evidence, Test};
+use crate::contract::config::Invalid;
+use crate::contract::node::NodeError;
+use crate::contract::sweep::Sweep;
+use crate::contract::value::NamedValue;
+use crate::effects::spin::by_integration::{self, ConjugateLocusByIntegration};
+use crate::effects::spin::conjugate_locus::ConjugateLocus;
+use crate::effects::spin::contact::contact_coefficient;
+use crate::effects::spin::double_points::DoublePoints;
+use crate::effects::spin::momenta::Momenta;
+use crate::plot::axis::Axis;
+use crate::plot::mark::Curve;
+use crate::plot::picture::{Inset, Place};
+use crate::plot::role::Role;
+use crate::table::{Table, TableError, Tables};
+use std::f64::consts::{FRAC_PI_2, PI};
+
+/// The table of a branch.
+pub const LOCUS: &str = "conjugate-locus";
+/// The table of its second route.
+pub const BY_INTEGRATION: &str = "conjugate-locus-by-integration";
+/// The table of its double points.
+pub const DOUBLE_POINTS: &str = "double-points";
+/// The table of their second route.
+pub const DOUBLE_POINTS_BY_INTEGRATION: &str = "double-points-by-integration";
+
+/// A table that can't be read the way an experiment reads it.
+pub fn unread(error: TableError) -> NodeError {
+    NodeError::new(error.to_string())
+}
+
+/// The name of a table of one k.
+pub fn name_of(table: &str, k: f64) -> String {
+    format!("{table}/k={k:?}")
+}
+
+/// Which config keys the parameters of a node of one k came from.
+pub fn origins(sweep: &Sweep, index: usize) -> Vec<(&'static str, String)> {
+    let mut origins = vec![("k", sweep.key_of("scene.metric.spin.k", index))];
+    for (leaf, key) in [("p_theta.from", "from"), ("p_theta.to", "to"), ("p_theta.step", "step")] {
+        origins.push((leaf, format!("scene.start.p_theta.{key}")));
+    }
+    origins
+}
+
+/// Asks for the branch of one k and its second route.
+///
+/// # Errors
+/// Parameters that can't be written as a manifest.
+pub fn ask_for_branch(
+    nodes: &mut Nodes,
+    (sweep, index): (&Sweep, usize),
+    p_theta: Momenta,
+    accuracy: Accuracy,
+) -> Result<TableRef, NodeError> {
+    let k = sweep.values()[index];
+    let axes = [("k", format!("{k:?}"))];
+    let origins = origins(sweep, index);
+    let locus = nodes.add(LOCUS, &axes, ConjugateLocus { k, p_theta }, &[], &origins)?;
+    let second = ConjugateLocusByIntegration::new(k, accuracy);
+    nodes.add(BY_INTEGRATION, &axes, second, &[(by_integration::INPUT, &locus)], &origins[..1])?;
+    Ok(locus)
+}
+
+/// Refuses panels whose values of k are not those of the scene: no panel, more than `most`, none or more than four values in one, a value twice or one
+/// that is not in the scene; and a value of the scene that no panel shows.
+///
+/// # Errors
+/// The first of these.
+pub fn validate_panels(scene: &Sweep, panels: &[&Vec<f64>], most: usize) -> Result<(), Invalid> {
+    let known = scene.values();
+    let accepted = format!("1 to {most} tables [[panels]]");
+    Invalid::unless((1..=most).contains(&panels.len()), "panels", format!("{} panels", panels.len()), accepted)?;
+    for (i, group) in panels.iter().enumerate() {
+        let key = format!("panels[{i}].k");
+        Invalid::unless((1..=4).contains(&group.len()), &key, format!("{group:?}"), "a list of 1 to 4 values")?;
+        for (j, k) in group.iter().enumerate() {
+            let accepted = format!("a value of scene.metric.spin.k: {known:?}");
+            Invalid::number(known.contains(k), format!("{key}[{j}]"), *k, accepted)?;
+            Invalid::number(!group[..j].contains(k), format!("{key}[{j}]"), *k, "each value once in a panel")?;
+        }
+    }
+    for (i, k) in known.iter().enumerate() {
+        let shown = panels.iter().any(|group| group.contains(k));
+        Invalid::number(
+            shown,
+            scene.key_of("scene.metric.spin.k", i),
+            *k,
+            "values that a panel shows: add it to a panel's k",
+        )?;
+    }
+    Ok(())
+}
+
+/// Asks for the double points of the branch of one k and their second route.
+///
+/// # Errors
+/// Parameters that can't be written as a manifest.
+pub fn ask_for_double_points(
+    nodes: &mut Nodes,
+    (sweep, index): (&Sweep, usize),
+    p_theta: Momenta,
+    accuracy: Accuracy,
+) -> Result<(), NodeError> {
+    let k = sweep.values()[index];
+    let axes = [("k", format!("{k:?}"))];
+    let origins = origins(sweep, index);
+    let points = nodes.add(DOUBLE_POINTS, &axes, DoublePoints { k, p_theta }, &[], &origins)?;
+    let second = ConjugateLocusByIntegration::new(k, accuracy);
+    nodes.add(DOUBLE_POINTS_BY_INTEGRATION, &axes, second, &[(by_integration::INPUT, &points)], &origins[..1])?;
+    Ok(())
+}
+
+/// A double point as its table holds it.
+pub struct DoublePoint {
+    /// The ratio of the couplings.
+    pub k: f64,
+    /// The two momenta with bounds on their relative errors, the smaller first.
+    pub p_theta: [(f64, f64); 2],
+    /// Where it stands in the chart.
+    pub place: (f64, f64),
+    /// Where it stands on the sphere, the pole `r2 = 1` up.
+    pub on_sphere: [f64; 3],
+    /// A bound on the error of its place.
+    pub error: f64,
+}
+
+/// The double points of one k.
+///
+/// # Errors
+/// No such table, or one of another form.
+pub fn double_points(tables: &Tables, k: f64) -> Result<Vec<DoublePoint>, NodeError> {
+    let table = tables.get(&name_of(DOUBLE_POINTS, k)).map_err(unread)?;
+    let column = |name: &str| table.f64s(name).map_err(unread);
+    let (p, p_error, theta, phi) = (column("p_theta")?, column("p_theta_error")?, column("theta")?, column("phi")?);
+    let (r1, r2, r3, error) = (column("r1")?, column("r2")?, column("r3")?, column("place_error")?);
+    let at = |row: usize| DoublePoint {
+        k,
+        p_theta: [(p[row], p_error[row]), (p[row + 1], p_error[row + 1])],
+        place: (theta[row], phi[row]),
+        on_sphere: [r1[row], r3[row], r2[row]],
+        error: error[row],
+    };
+    Ok((0..table.rows() / 2).map(|i| at(2 * i)).collect())
+}
+
+/// Place and momenta of double points, as named values.
+pub fn double_point_values(points: &[DoublePoint]) -> Vec<NamedValue> {
+    let mut values = Vec::new();
+    for (i, point) in points.iter().enumerate() {
+        // Several of one k are told apart by their number.
+        let rank = points[..i].iter().filter(|other| other.k == point.k).count();
+        let number = if rank > 0 { format!("_{}", rank + 1) } else { String::new() };
+        let [(p_a, a), (p_b, b)] = point.p_theta;
+        for (name, value, unit, error, meaning) in [
+            ("p_a", p_a, "1", a * p_a, "smaller p_theta of the double point of the branch"),
+            ("p_b", p_b, "1", b * p_b, "larger p_theta of the double point of the branch"),
+            ("theta", point.place.0, "rad", point.error, "θ of the double point of the branch"),
+            ("phi", point.place.1, "rad", point.error, "φ of the double point of the branch"),
+        ] {
+            values.push(NamedValue {
+                name: format!("double_point{number}_{name}_k={:?}", point.k),
+                value,
+                unit: unit.to_owned(),
+                meaning: format!("{meaning}, k = {:?}", point.k),
+                route: "Newton on two momenta with equal conjugate points (closed form); integration as second route"
+                    .to_owned(),
+                error,
+            });
+        }
+    }
+    values
+}
+
+/// The switches of section 5.2.1 in the limit `p_θ → 0`, where they are elementary.
+pub struct Switches {
+    /// The cusp passes the pole φ = π.
+    pub k1: f64,
+    /// The cusp passes the equator.
+    pub k_bar: f64,
+    /// The cusp passes the pole φ = 0.
+    pub k2: f64,
+    /// The cusp passes the pole φ = π again.
+    pub k3: f64,
+}
+
+/// The switches: `t1` is 3π/2, 2π, 5π/2 and 7π/2, and `w tan t1 = tan(w t1)` with `w² = 1 − 1/k²`.
+pub fn switches() -> Switches {
+    Switches { k1: 3.0 / 8.0_f64.sqrt(), k_bar: 2.0 / 3.0_f64.sqrt(), k2: 1.25, k3: 7.0 / 24.0_f64.sqrt() }
+}
+
+/// The columns of a branch, in order of ascending `p_θ`, `p_θ = 0` first.
+pub struct Branch<'a> {
+    /// The ratio of the couplings.
+    pub k: f64,
+    /// `p_θ(0)`.
+    pub p_theta: &'a [f64],
+    /// First conjugate time.
+    pub t1: &'a [f64],
+    /// θ there, continuous.
+    pub theta: &'a [f64],
+    /// φ there.
+    pub phi: &'a [f64],
+    /// The point there.
+    pub r: [&'a [f64]; 3],
+    /// Relative error of `t1`.
+    pub error: &'a [f64],
+}
+
+impl<'a> Branch<'a> {
+    /// The branch of one k among the tables.
+    ///
+    /// # Errors
+    /// No such table, or one of another form.
+    pub fn of(tables: &'a Tables, k: f64) -> Result<Self, NodeError> {
+        let table = tables.get(&name_of(LOCUS, k)).map_err(unread)?;
+        let column = |name: &str| table.f64s(name).map_err(unread);
+        if table.rows() < 2 {
+            return Err(NodeError::new(format!("k = {k:?}: the branch has fewer than two points")));
+        }
+        Ok(Self {
+            k,
+            p_theta: column("p_theta")?,
+            t1: column("t1")?,
+            theta: column("theta")?,
+            phi: column("phi")?,
+            r: [column("r1")?, column("r2")?, column("r3")?],
+            error: column("error")?,
+        })
+    }
+
+    /// The branch in the chart from its cusp at `p_θ = 0` to its start, which is the limit `p_θ → ∞`.
+    pub fn chart(&self) -> Vec<(f64, f64)> {
+        let points = self.theta.iter().copied().zip(self.phi.iter().copied());
+        points.chain([(0.0, FRAC_PI_2)]).collect()
+    }
+
+    /// The half locus `p_φ = −2`, `p_θ` of both signs, in the chart: from the cusp through the start to the mirror image of the cusp.
+    pub fn half(&self) -> Vec<(f64, f64)> {
+        let mut points = self.chart();
+        let mirrored: Vec<_> = points.iter().rev().skip(1).map(|(theta, phi)| (-theta, *phi)).collect();
+        points.extend(mirrored);
+        points
+    }
+
+    /// The half locus on the sphere, the pole `r2 = 1` up: from the start through the cusp back to the start.
+    pub fn half_on_sphere(&self) -> Vec<[f64; 3]> {
+        let [r1, r2, r3] = self.r;
+        let point = |i: usize, sign: f64| [r1[i], sign * r3[i], r2[i]];
+        let start = [1.0, 0.0, 0.0];
+        let there = (0..r1.len()).rev().map(|i| point(i, 1.0));
+        let back = (1..r1.len()).map(|i| point(i, -1.0));
+        std::iter::once(start).chain(there).chain(back).chain([start]).collect()
+    }
+}
+
+/// How far from a cusp its inset reaches at most, in R³.
+const REACH: f64 = 0.15;
+/// A cusp that turns back within less than this is not shown: its points are known to 1e-15.
+const SMALLEST_CUSP: f64 = 1e-9;
+/// How far the inset of a cusp that turns back reaches, in units of where it is level with its tip again.
+const BEYOND_TURN: f64 = 2.5;
+
+/// An inset that shows the cusp of a half locus at its own scale: `φ − phi` over `θ − theta`, from the cusp.
+///
+/// For k < 1 the tip points away from the equator and the locus soon turns back past it; the smaller k, the smaller is that tip.
+pub fn cusp_inset(branch: &Branch<'_>, place: Place, size: (f64, f64)) -> Inset {
+    let [r1, r2, r3] = branch.r;
+    let away = |i: usize| {
+        let [x, y, z] = [r1[i] - r1[0], r2[i] - r2[0], r3[i] - r3[0]];
+        (x * x + y * y + z * z).sqrt()
+    };
+    let count = r1.len();
+    let offset = |i: usize| (branch.theta[i] - branch.theta[0], branch.phi[i] - branch.phi[0]);
+    let farthest = (1..count).find(|i| away(*i) > REACH).unwrap_or(count) - 1;
+    // The last point within reach on the other side of the tip's level.
+    let direction = offset(farthest).1;
+    let turn = (1..=farthest).rev().find(|i| offset(*i).1 * direction < 0.0 && away(*i) > SMALLEST_CUSP);
+    let reach = turn.map_or(REACH, |i| (BEYOND_TURN * away(i)).min(REACH));
+    let shown = ((1..count).find(|i| away(*i) > reach).unwrap_or(count) + 1).min(count);
+    let inside = || (0..shown - 1).map(offset);
+    let width = inside().map(|(x, _)| x.abs()).fold(f64::MIN_POSITIVE, f64::max);
+    let (low, high) = inside().fold((0.0, 0.0), |(low, high): (f64, f64), (_, y)| (low.min(y), high.max(y)));
+    let margin = 0.15 * (high - low).max(f64::MIN_POSITIVE);
+    let half: Vec<(f64, f64)> = (0..shown).map(offset).collect();
+    let mirrored = half.iter().skip(1).map(|(x, y)| (-x, *y));
+    let points = half.iter().rev().copied().chain(mirrored).collect();
+    let ((x, across), (y, up)) = (round_below(width), round_below(high.max(-low)));
+    let y = if high >= -low { (y, up) } else { (-y, format!("−{up}")) };
+    Inset {
+        x: Axis::new("").fixed(-1.15 * width, 1.15 * width).ticks_at([(-x, format!("−{across}")), (x, across)]),
+        y: Axis::new("").fixed(low - margin, high + margin).ticks_at([(0.0, "0".to_owned()), y]),
+        place,
+        size,
+        marks: Some(vec![Curve::new(Role::ConjugateLocus, points).into()]),
+        source: false,
+    }
+}
+
+/// The largest number of one digit that is not above `x > 0`, and how it is written.
+fn round_below(x: f64) -> (f64, String) {
+    let exponent = libm::log10(x).floor();
+    let digit = (x / libm::exp10(exponent)).floor().clamp(1.0, 9.0);
+    let text = if exponent >= -2.0 {
+        format!("{}", digit * libm::exp10(exponent))
+    } else {
+        let power = format!("10^{{−{}}}", -exponent);
+        if digit > 1.0 { format!("{digit}·{power}") } else { power }
+    };
+    (digit * libm::exp10(exponent), text)
+}
+
+/// A curve of the chart in the other half, `p_φ = +2`.
+pub fn other_half(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    points.iter().map(|(theta, phi)| (*theta, PI - phi)).collect()
+}
+
+/// A curve of the chart, moved by a number of turns in θ.
+pub fn turned(points: &[(f64, f64)], turns: f64) -> Vec<(f64, f64)> {
+    points.iter().map(|(theta, phi)| (theta + 2.0 * PI * turns, *phi)).collect()
+}
+
+/// The cusp of each branch: conjugate time and φ in the limit `p_θ → 0`, which is the ordinary point `p_θ = 0`.
+pub fn cusp_values(branches: &[Branch<'_>]) -> Vec<NamedValue> {
+    let value = |name: &str, k: f64, value: f64, unit: &str, meaning: &str, error: f64| NamedValue {
+        name: format!("{name}_k={k:?}"),
+        value,
+        unit: unit.to_owned(),
+        meaning: format!("{meaning}, k = {k:?}"),
+        route: "closed form at p_theta = 0; integration of the lift as second route".to_owned(),
+        error,
+    };
+    branches
+        .iter()
+        .flat_map(|branch| {
+            let (k, t1) = (branch.k, branch.t1[0]);
+            // On the meridian φ changes at unit rate.
+            let error = t1 * branch.error[0];
+            [
+                value("cusp_t1", k, t1, "time", "first conjugate time in the limit p_theta → 0", error),
+                value(
+                    "cusp_phi",
+                    k,
+                    branch.phi[0],
+                    "rad",
+                    "φ of the cusp of the conjugate locus",
+                    error + 8.0 * f64::EPSILON,
+                ),
+            ]
+        })
+        .collect()
+}
+
+fn second_routes<'a>(tables: &'a Tables) -> Vec<&'a Table> {
+    [BY_INTEGRATION, DOUBLE_POINTS_BY_INTEGRATION]
+        .into_iter()
+        .flat_map(|name| tables.starting_with(name).map(|(_, table)| table))
+        .collect()
+}
+
+fn rows_of<'a>(table: &'a Table) -> Result<impl Iterator<Item = (f64, f64)> + 'a, NodeError> {
+    let column = |name: &str| table.f64s(name).map_err(unread);
+    Ok(column("t1_difference")?.iter().copied().zip(column("allowed")?.iter().copied()))
+}
+
+/// The largest difference of the two routes, over all second routes of the experiment.
+///
+/// # Errors
+/// A table of another form.
+pub fn largest_route_difference(tables: &Tables) -> Result<NamedValue, NodeError> {
+    let (mut value, mut rows): (f64, usize) = (0.0, 0);
+    for table in second_routes(tables) {
+        value = rows_of(table)?.fold(value, |largest, (difference, _)| largest.max(difference));
+        rows += table.rows();
+    }
+    Ok(NamedValue {
+        name: "largest_route_difference".to_owned(),
+        value,
+        unit: "1".to_owned(),
+        meaning: format!(
+            "largest relative difference of t1 between closed form and integration, {rows} conjugate times"
+        ),
+        route: "closed form against the lift by power series (f64, double-double where rounding would show)".to_owned(),
+        error: 4.0 * f64::EPSILON,
+    })
+}
+
+/// The claim that the routes agree for every conjugate time, each within what is allowed for it.
+///
+/// # Errors
+/// A table of another form.
+pub fn routes_agree(tables: &Tables) -> Result<Claim, NodeError> {
+    let (mut worst, mut largest_allowed): (f64, f64) = (0.0, 0.0);
+    for table in second_routes(tables) {
+        for (difference, allowed) in rows_of(table)? {
+            worst = worst.max(difference / allowed);
+            largest_allowed = largest_allowed.max(allowed);
+        }
+    }
+    Ok(Claim {
+        id: "routes_agree".to_owned(),
+        place: "all conjugate times of this experiment".to_owned(),
+        statement: "Closed form and integration give the same first conjugate times.".to_owned(),
+        evidence: Evidence::Direct(Test::AtMost {
+            measured: worst,
+            tolerance: 1.0,
+            reason: format!(
+                "difference in units of what is allowed: 1e-12 relative, or the closed form's own error bound beside vertical \
+                 tangents of t1 (at most {largest_allowed:.1e})"
+            ),
+        }),
+        note: String::new(),
+    })
+}
+
+/// The claim of a contact of order two at the start: `θ ~ x0/(2k) (φ − π/2)²` with `tan x0 = x0`.
+pub fn contact(branches: &[Branch<'_>]) -> Claim {
+    let (mut measured, mut tolerance): (f64, f64) = (0.0, 0.0);
+    for branch in branches {
+        let last = branch.p_theta.len() - 1;
+        let height = branch.phi[last] - FRAC_PI_2;
+        let ratio = branch.theta[last] / (height * height) / contact_coefficient(branch.k);
+        measured = measured.max((ratio - 1.0).abs());
+        tolerance = tolerance.max(100.0 / (branch.p_theta[last] * branch.p_theta[last]));
+    }
+    Claim {
+        id: "contact_of_order_two".to_owned(),
+        place: "section 5.2".to_owned(),
+        statement: "For p_θ(0) → ∞ the conjugate locus has a contact of order two at the initial point.".to_owned(),
+        evidence: Evidence::Direct(Test::AtMost {
+            measured,
+            tolerance,
+            reason: "largest |2k θ/(x0 (φ − π/2)²) − 1| at the largest p_θ of each k, tan x0 = x0; the next term is of order 1/p_θ²"
+                .to_owned(),
+        }),
+        note: "The model at the start is the Grushin plane, whose conjugate points are x = −(2k/p_θ) sin x0, θ = 2k (x0 − sin x0 cos \
+               x0)/p_θ², so θ/x² = x0/(2k): a parabola tangent to the meridian, one for each sign of p_θ."
+            .to_owned(),
+    }
+}
+
+/// A claim that has no counterexample among some cases.
+pub fn no_counterexample(
+    (id, place, statement): (&str, &str, &str),
+    cases: impl IntoIterator<Item = (bool, String)>,
+    note: &str,
+) -> Claim {
+    let cases: Vec<(bool, String)> = cases.into_iter().collect();
+    let counterexamples: Vec<&String> = cases.iter().filter(|(holds, _)| !holds).map(|(_, case)| case).collect();
+    Claim {
+        id: id.to_owned(),
+        place: place.to_owned(),
+        statement: statement.to_owned(),
+        evidence: Evidence::Direct(Test::None {
+            counterexamples: counterexamples.len() as u64,
+            cases: cases.len() as u64,
+            example: counterexamples.first().map_or(String::new(), |case| (*case).clone()),
+        }),
+        note: note.to_owned(),
+    }
+}

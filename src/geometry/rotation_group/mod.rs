@@ -1,0 +1,14 @@
+//! Left-invariant metrics on SO(3), the Euler-Poinsot motion (article, sections 2 and 5.3).
+//!
+//! Integration happens in the body frame and in unit quaternions; Euler angles and Serret-Andoyer variables are charts for
+//! posing problems and reading results.
+
+pub mod attitude_route;
+pub mod attitude_trajectory;
+pub mod body_flow;
+pub mod conjugate;
+pub mod euler_angles;
+mod lagrangian_plane;
+pub mod metric;
+pub mod serret_andoyer_transformation;
+mod vectors;
