@@ -169,12 +169,16 @@ impl Disk {
         })
     }
 
-    /// Makes a folder and those above it; an existing one is fine. Syncs the folder that holds the first new one.
+    /// Makes a folder and those above it; an existing one is fine. Syncs every folder that got an entry.
     pub fn create_folder(&self, path: &Path) -> Done<()> {
+        let mut gaining = Vec::new();
         let mut lowest = path;
         while !lowest.exists() {
             match lowest.parent() {
-                Some(parent) if !parent.as_os_str().is_empty() => lowest = parent,
+                Some(above) if !above.as_os_str().is_empty() => {
+                    gaining.push(above);
+                    lowest = above;
+                }
                 _ => break,
             }
         }
@@ -182,7 +186,7 @@ impl Disk {
             return Ok(());
         }
         self.call(Operation::CreateFolder, path, || fs::create_dir_all(path))?;
-        if lowest.is_dir() { self.sync_folder(lowest) } else { Ok(()) }
+        gaining.into_iter().rev().try_for_each(|folder| self.sync_folder(folder))
     }
 
     /// The entries of a folder, by name; names that are not Unicode are left out.

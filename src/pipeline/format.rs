@@ -63,7 +63,9 @@ pub(super) enum Marker {
     Ours,
     Other(u32),
     Missing,
-    Damaged(Fault),
+    Damaged,
+    /// It can't be read, so what it says is not known.
+    Unreadable(DiskError),
 }
 
 /// The marker of a version.
@@ -87,10 +89,10 @@ impl Store {
             Ok(text) => match version_of(&text) {
                 Ok(VERSION) => Marker::Ours,
                 Ok(other) => Marker::Other(other),
-                Err(_) => Marker::Damaged(Fault::Altered),
+                Err(_) => Marker::Damaged,
             },
             Err(error) if error.is_missing() => Marker::Missing,
-            Err(error) => Marker::Damaged(error.into()),
+            Err(error) => Marker::Unreadable(error),
         }
     }
 
@@ -98,15 +100,18 @@ impl Store {
     pub(super) fn refuse_other_format(&self) -> Result<(), StoreError> {
         match self.marker() {
             Marker::Other(version) => Err(StoreError::OtherFormat { folder: self.folder().to_owned(), version }),
-            _ => Ok(()),
+            Marker::Unreadable(error) => Err(error.into()),
+            Marker::Ours | Marker::Missing | Marker::Damaged => Ok(()),
         }
     }
 
     /// Marks a store that lacks a marker, given what the marker said.
-    pub(super) fn mark(&self, found: &Marker) -> Result<Option<Notice>, StoreError> {
+    pub(super) fn mark(&self, found: Marker) -> Result<Option<Notice>, StoreError> {
         let notice = match found {
             Marker::Ours | Marker::Other(_) => return Ok(None),
-            Marker::Damaged(fault) => Some(Notice::Damaged(self.marker_path(), fault.clone())),
+            // It may be of another format: nothing is written over it.
+            Marker::Unreadable(error) => return Err(error.into()),
+            Marker::Damaged => Some(Notice::Damaged(self.marker_path(), Fault::Altered)),
             Marker::Missing if self.has_records() => Some(Notice::Damaged(self.marker_path(), Fault::Missing)),
             Marker::Missing => Some(self.other_formats()).filter(|others| !others.is_empty()).map(Notice::Others),
         };

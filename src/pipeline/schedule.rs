@@ -181,6 +181,13 @@ impl<'a> Scheduler<'a> {
         self.events.finished(self.graph.address(node), done.duration, &done.record.work);
         self.slots[node].duration = Some(done.duration);
         self.slots[node].differs = done.differs;
+        for (object, fault) in done.replaced {
+            let path = self.store.object_path(object).display().to_string();
+            // Damage that made the node run has been told.
+            if !self.damage.iter().any(|damage| damage.path == path) {
+                self.tell_damage(node, Subject::Object, path, fault, Repair::Rewritten);
+            }
+        }
         for (export, object, status) in done.exports {
             self.tell_export(export, object, status);
         }

@@ -2,9 +2,9 @@
 
 use super::examine::inputs;
 use super::exports;
-use super::report::{Failure, Status};
+use super::report::{Failure, Repair, Status, Subject};
 use super::schedule::{Message, Scheduler};
-use super::store::Examined;
+use super::store::{Examined, Put};
 use super::work::{self, Job, Outgoing};
 use std::fs::File;
 use std::io::{Read, Seek, Write};
@@ -67,7 +67,11 @@ impl<'a> Scheduler<'a> {
         }
         let code = &self.graph.nodes[node].code;
         if self.listings.insert(code.digest) {
-            self.store.put(code.text().as_bytes()).map_err(Failure::Store)?;
+            let (object, put) = self.store.put(code.text().as_bytes()).map_err(Failure::Store)?;
+            if let Put::Replaced(fault) = put {
+                let path = self.store.object_path(object).display().to_string();
+                self.tell_damage(node, Subject::Listing, path, fault, Repair::Rewritten);
+            }
         }
         self.sign(node, &mut lock);
         let (logical, objects) = inputs(self.graph, &self.slots, node)?;

@@ -129,14 +129,14 @@ pub struct Session {
 }
 
 /// What became of an object that was put into the store.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Put {
     /// It was there.
     Kept,
     /// It was not.
     New,
-    /// Something else was there under its name.
-    Replaced,
+    /// What was there under its name was damaged.
+    Replaced(Fault),
 }
 
 impl Store {
@@ -204,7 +204,7 @@ impl Store {
         let put = match self.object_fault(object) {
             None => return Ok((object, Put::Kept)),
             Some(Fault::Missing) => Put::New,
-            Some(_) => Put::Replaced,
+            Some(fault) => Put::Replaced(fault),
         };
         self.replace(&self.object_path(object), bytes)?;
         Ok((object, put))
@@ -336,10 +336,13 @@ impl Store {
                     if let Marker::Other(version) = self.marker() {
                         notices.push(self.set_aside(version)?);
                     }
-                    notices.extend(self.mark(&self.marker())?);
+                    notices.extend(self.mark(self.marker())?);
                     drop(lock.unlock());
                 }
-                lacking => notices.extend(self.mark(&lacking)?),
+                lacking => {
+                    notices.extend(self.mark(lacking)?);
+                    return Ok(Session { lock, notices });
+                }
             }
         }
     }

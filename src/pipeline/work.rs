@@ -4,7 +4,7 @@ use super::exports::{self, Wanted};
 use super::graph::Graph;
 use super::record::{Output, Record};
 use super::report::{ExportStatus, Failure};
-use super::store::{Store, StoreError};
+use super::store::{Fault, Put, Store, StoreError};
 use crate::contract::digest::Digest;
 use crate::contract::node::{InputFile, Inputs, Product};
 use std::any::Any;
@@ -47,6 +47,8 @@ pub(super) struct Done {
     pub(super) duration: Duration,
     pub(super) differs: Vec<String>,
     pub(super) exports: Vec<(usize, Option<Digest>, ExportStatus)>,
+    /// Stored objects that were damaged and are right again, since this node makes the same bytes.
+    pub(super) replaced: Vec<(Digest, Fault)>,
 }
 
 /// Does a job. A panic is a failure of the node.
@@ -57,12 +59,12 @@ pub(super) fn execute(graph: &Graph, store: &Store, job: Job) -> Result<Done, Fa
 
 fn attempt(graph: &Graph, store: &Store, job: Job) -> Result<Done, Failure> {
     let (product, duration) = compute(graph, store, job.node, &job.logical, &job.objects)?;
-    let record = keep(graph, store, &job, &product).map_err(Failure::Store)?;
+    let (record, replaced) = keep(graph, store, &job, &product).map_err(Failure::Store)?;
     // From here on another run finds the result in the store.
     drop(job.lock);
     let differs = job.previous.as_ref().map_or_else(Vec::new, |previous| differing(previous, &record));
     let exports = job.outgoing.iter().map(|outgoing| bring(graph, store, &record, &product, outgoing)).collect();
-    Ok(Done { record, duration, differs, exports })
+    Ok(Done { record, duration, differs, exports, replaced })
 }
 
 /// Reads the inputs of a node, whose logical digests and objects are given in their order, and computes.
@@ -113,10 +115,19 @@ pub(super) fn recompute(
 }
 
 /// Stores a product: objects first, then the record that names them.
-fn keep(graph: &Graph, store: &Store, job: &Job, product: &Product) -> Result<Record, StoreError> {
+fn keep(
+    graph: &Graph,
+    store: &Store,
+    job: &Job,
+    product: &Product,
+) -> Result<(Record, Vec<(Digest, Fault)>), StoreError> {
     let mut outputs = Vec::with_capacity(product.artifacts.len());
+    let mut replaced = Vec::new();
     for artifact in &product.artifacts {
-        let (object, _) = store.put(&artifact.bytes)?;
+        let (object, put) = store.put(&artifact.bytes)?;
+        if let Put::Replaced(fault) = put {
+            replaced.push((object, fault));
+        }
         let size = artifact.bytes.len() as u64;
         outputs.push(Output { name: artifact.name.clone(), object, logical: artifact.logical, size });
     }
@@ -125,7 +136,7 @@ fn keep(graph: &Graph, store: &Store, job: &Job, product: &Product) -> Result<Re
     if store.record(job.key).as_ref() != Ok(&record) {
         store.write_record(&record, &graph.manifest(job.node, &job.logical))?;
     }
-    Ok(record)
+    Ok((record, replaced))
 }
 
 fn differing(previous: &Record, now: &Record) -> Vec<String> {
