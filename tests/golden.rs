@@ -3,8 +3,6 @@
 //! `just bless` writes them anew; read the difference before committing it. All experiments are computed afresh here, in a
 //! folder of their own, so that nothing old can be compared with itself.
 
-#![expect(clippy::expect_used, reason = "helpers of tests")]
-
 mod support;
 
 use std::collections::BTreeSet;

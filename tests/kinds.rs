@@ -65,8 +65,7 @@ fn only_pictures_depend_on_how_things_are_drawn() {
         let has = |room: &str| listing.lines.iter().any(|(file, _)| file.starts_with(&format!("{room}/")));
         let is_picture = kind.name.ends_with("picture");
         assert_eq!(has("plot"), is_picture, "{} and plot", kind.name);
-        let reads = is_picture || kind.name.ends_with("findings");
-        assert!(!(reads && (has("numerics") || has("geometry"))), "{} reaches numerics", kind.name);
+        assert!(!(is_picture && (has("numerics") || has("geometry"))), "{} reaches numerics", kind.name);
         assert!(!(has("pipeline") || has("cli")), "{} reaches the runner", kind.name);
     }
 }

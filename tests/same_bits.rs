@@ -1,7 +1,7 @@
 //! The same bits everywhere: for one thread and many, in any folder, with the C library's FMA variants switched off; and
 //! nothing in the outputs says when, where or by what they were made. All experiments there are.
 
-#![expect(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
+#![expect(clippy::expect_used, reason = "helpers of tests")]
 
 mod support;
 

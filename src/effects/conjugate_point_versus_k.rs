@@ -21,7 +21,14 @@ use serde::Serialize;
 pub const KIND: Kind = Kind {
     name: "conjugate-point-versus-k",
     summary: "first conjugate point for one p_θ as a function of k, in closed form",
-    code: &["effects/conjugate_point_versus_k.rs", "effects/product.rs", "geometry/spin", "numerics", "table"],
+    code: &[
+        "contract/sweep.rs",
+        "effects/conjugate_point_versus_k.rs",
+        "effects/product.rs",
+        "geometry/spin",
+        "numerics",
+        "table",
+    ],
     measurement: false,
 };
 /// The input, where there is one: a table of kind `switch-points`.

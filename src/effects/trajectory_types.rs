@@ -20,6 +20,7 @@ pub const KIND: Kind = Kind {
     name: "trajectory-types",
     summary: "type of the trajectory for each k and p_θ: turning points of θ, first exit, self-intersection",
     code: &[
+        "contract/sweep.rs",
         "effects/trajectory_types.rs",
         "effects/counted.rs",
         "effects/product.rs",

@@ -71,8 +71,8 @@ impl Validate for Params {
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig1>();
 
-const PICTURE: Kind = picture_kind("fig1-picture", &["experiments/fig1.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig1-findings", &["experiments/fig1.rs", "experiments/findings.rs", "table"]);
+const PICTURE: Kind = picture_kind("fig1-picture", &["experiments/definition.rs", "experiments/fig1.rs", "experiments/findings.rs", "plot", "table"]);
+const FINDINGS: Kind = findings_kind("fig1-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/fig1.rs", "experiments/findings.rs", "table"]);
 
 struct Fig1;
 

@@ -56,8 +56,8 @@ impl Validate for Params {
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig2>();
 
-const PICTURE: Kind = picture_kind("fig2-picture", &["experiments/fig2.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig2-findings", &["experiments/fig2.rs", "experiments/findings.rs", "table"]);
+const PICTURE: Kind = picture_kind("fig2-picture", &["experiments/definition.rs", "experiments/fig2.rs", "experiments/findings.rs", "plot", "table"]);
+const FINDINGS: Kind = findings_kind("fig2-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/fig2.rs", "experiments/findings.rs", "table"]);
 
 struct Fig2;
 

@@ -124,8 +124,8 @@ const SHOWN: [Effect; 4] = [Effect::ConjugateLocus, Effect::CutLocus, Effect::Wa
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig3>();
 
-const PICTURE: Kind = picture_kind("fig3-picture", &["experiments/fig3.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig3-findings", &["experiments/fig3.rs", "experiments/findings.rs", "table"]);
+const PICTURE: Kind = picture_kind("fig3-picture", &["experiments/definition.rs", "experiments/fig3.rs", "experiments/findings.rs", "plot", "table"]);
+const FINDINGS: Kind = findings_kind("fig3-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/fig3.rs", "experiments/findings.rs", "table"]);
 
 struct Fig3;
 

@@ -66,8 +66,8 @@ impl Validate for Params {
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig4>();
 
-const PICTURE: Kind = picture_kind("fig4-picture", &["experiments/fig4.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig4-findings", &["experiments/fig4.rs", "table"]);
+const PICTURE: Kind = picture_kind("fig4-picture", &["experiments/definition.rs", "experiments/fig4.rs", "plot", "table"]);
+const FINDINGS: Kind = findings_kind("fig4-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/fig4.rs", "table"]);
 const CURVE: &str = "conjugate-point-versus-k";
 const CURVE_CHECK: &str = "conjugate-point-versus-k-by-integration";
 const SWITCHES: &str = "switch-points";

@@ -111,10 +111,10 @@ impl Validate for Params {
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig5>();
 
 const PICTURE: Kind =
-    picture_kind("fig5-picture", &["experiments/fig5.rs", "experiments/spin_branches.rs", "plot", "table"]);
+    picture_kind("fig5-picture", &["experiments/definition.rs", "experiments/fig5.rs", "experiments/spin_branches.rs", "plot", "table"]);
 const FINDINGS: Kind = findings_kind(
     "fig5-findings",
-    &["experiments/fig5.rs", "experiments/spin_branches.rs", "effects/spin/contact.rs", "geometry/spin", "numerics", "table"],
+    &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/fig5.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"],
 );
 const LOOPS: &str = "loops";
 

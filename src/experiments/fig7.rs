@@ -70,10 +70,9 @@ impl Validate for Params {
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig7>();
 
-const CODE: &[&str] = &["experiments/fig7.rs", "experiments/spin_branches.rs", "plot", "table"];
-const PICTURE: Kind = picture_kind("fig7-picture", CODE);
+const PICTURE: Kind = picture_kind("fig7-picture", &["experiments/definition.rs", "experiments/fig7.rs", "experiments/spin_branches.rs", "plot", "table"]);
 const FINDINGS: Kind =
-    findings_kind("fig7-findings", &["experiments/fig7.rs", "experiments/spin_branches.rs", "effects/spin/contact.rs", "geometry/spin", "numerics", "table"]);
+    findings_kind("fig7-findings", &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/fig7.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"]);
 const GEODESICS: &str = "geodesics";
 
 struct Fig7;

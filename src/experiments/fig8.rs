@@ -69,10 +69,10 @@ impl Validate for Params {
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig8>();
 
 const PICTURE: Kind =
-    picture_kind("fig8-picture", &["experiments/fig8.rs", "experiments/spin_branches.rs", "plot", "table"]);
+    picture_kind("fig8-picture", &["experiments/definition.rs", "experiments/fig8.rs", "experiments/spin_branches.rs", "plot", "table"]);
 const FINDINGS: Kind = findings_kind(
     "fig8-findings",
-    &["experiments/fig8.rs", "experiments/spin_branches.rs", "effects/spin/contact.rs", "geometry/spin", "numerics", "table"],
+    &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/fig8.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"],
 );
 
 struct Fig8;

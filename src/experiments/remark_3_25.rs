@@ -67,9 +67,9 @@ impl Validate for Params {
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Remark>();
 
-const PICTURE: Kind = picture_kind("remark_3_25-picture", &["experiments/remark_3_25.rs", "plot", "table"]);
+const PICTURE: Kind = picture_kind("remark_3_25-picture", &["experiments/definition.rs", "experiments/findings.rs", "experiments/remark_3_25.rs", "plot", "table"]);
 const FINDINGS: Kind =
-    findings_kind("remark_3_25-findings", &["experiments/remark_3_25.rs", "experiments/findings.rs", "table"]);
+    findings_kind("remark_3_25-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/remark_3_25.rs", "table"]);
 
 struct Remark;
 

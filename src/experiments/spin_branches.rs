@@ -470,6 +470,7 @@ pub fn no_counterexample(
     }
 }
 
+/// Checks that the three figures share.
 #[cfg(test)]
 pub mod tests {
     use super::*;

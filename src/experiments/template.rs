@@ -40,8 +40,21 @@ impl Validate for Params {
 pub const EXPERIMENT: Experiment = Experiment::of::<Template>();
 
 // What the picture and the findings depend on: this file, and the rooms that draw and read.
-const PICTURE: Kind = picture_kind("template-picture", &["experiments/template.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("template-findings", &["experiments/template.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "template-picture",
+    &["experiments/definition.rs", "experiments/findings.rs", "experiments/template.rs", "plot", "table"],
+);
+const FINDINGS: Kind = findings_kind(
+    "template-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/findings.rs",
+        "experiments/template.rs",
+        "table",
+    ],
+);
 
 /// The experiment's definition.
 pub struct Template;

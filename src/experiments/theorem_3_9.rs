@@ -122,9 +122,9 @@ impl Validate for Params {
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Theorem>();
 
-const PICTURE: Kind = picture_kind("theorem_3_9-picture", &["experiments/theorem_3_9.rs", "plot", "table"]);
+const PICTURE: Kind = picture_kind("theorem_3_9-picture", &["experiments/definition.rs", "experiments/findings.rs", "experiments/theorem_3_9.rs", "plot", "table"]);
 const FINDINGS: Kind =
-    findings_kind("theorem_3_9-findings", &["experiments/theorem_3_9.rs", "experiments/findings.rs", "table"]);
+    findings_kind("theorem_3_9-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/theorem_3_9.rs", "table"]);
 
 struct Theorem;
 

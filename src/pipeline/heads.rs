@@ -51,6 +51,9 @@ pub fn view(root: &Path, out: &Path) -> String {
     framed.finish().to_string()[..16].to_owned()
 }
 
+/// The heads of one experiment in one view: the view, the experiment, and what its file says.
+pub(super) type Remembered = (String, String, Result<Heads, Fault>);
+
 impl Store {
     fn heads_path(&self, view: &str, experiment: &str) -> PathBuf {
         self.folder().join("heads").join(view).join(experiment)
@@ -73,7 +76,7 @@ impl Store {
     ///
     /// # Errors
     /// Folders that can't be listed.
-    pub(super) fn all_heads(&self) -> Result<Vec<(String, String, Result<Heads, Fault>)>, StoreError> {
+    pub(super) fn all_heads(&self) -> Result<Vec<Remembered>, StoreError> {
         let folder = self.folder().join("heads");
         let mut found = Vec::new();
         for view in self.list_if_there(&folder)?.into_iter().filter(|entry| entry.is_folder) {

@@ -76,7 +76,7 @@ impl Compute for Step {
             "words" => format!("the number is {}\n", input()?),
             "alone" => "alone\n".to_owned(),
             "fail" => return Err(NodeError::new("no root between 1 and 2")),
-            "panic" => panic!("index 7 of 5"),
+            "panic" => std::panic::panic_any("index 7 of 5".to_owned()),
             other => return Err(NodeError::new(format!("what is {other:?}?"))),
         };
         let work = Work { steps: 1, ..Work::default() };

@@ -5,7 +5,7 @@
 //!
 //! **What integration can give.** The separatrix multiplies every error made near the start by up to `e^(M t) ~ 1/δ`. Measured on the article's body, five
 //! starts, δ from 0.1 to 1e-12: in f64 `t1` is lost by `ε/(40 δ)`, 1e-13 at `δ = 5e-5`; starts between a turning point and the edge lose more, since y0 is
-//! rounded. So a row whose f64 time differs from the first route's by more than a [`TENTH`] of what is allowed is integrated again in double-double
+//! rounded. So a row whose f64 time differs from the first route's by more than a tenth of what is allowed is integrated again in double-double
 //! arithmetic, and that is what counts: one allowed difference serves all rows. Starts and δ are exact inputs of both routes, so the difference is all error.
 
 use super::body::{Body, ClairautStart};
