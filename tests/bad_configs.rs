@@ -1,6 +1,6 @@
 //! Wrong configs: exit code 3, a message that says what to change and where, and nothing is written.
 
-#![expect(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
+#![expect(clippy::panic, reason = "helpers of tests")]
 
 mod support;
 

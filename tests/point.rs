@@ -3,7 +3,14 @@
 //! Oracles: `tests/oracle/*.json`, 20 to 32 digits; `tests/oracle/README.md` says how each was made. Whole files go through
 //! `--input`, a table a file. A problem's condition number is measured with the command itself, by starts moved a little.
 
-#![expect(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
+#![expect(
+    clippy::expect_used,
+    clippy::panic,
+    clippy::print_stdout,
+    clippy::needless_range_loop,
+    clippy::type_complexity,
+    reason = "helpers of tests"
+)]
 
 mod support;
 
@@ -219,7 +226,7 @@ fn spin_given_values() {
         let allowed = 5e-15 * conditions[index].max(1.0);
         times.see(relative(get("t1"), t1), allowed, || format!("{row:?}, condition {:.2e}", conditions[index]));
         let place = turn(get("theta"), number(&value["theta"])).max((get("phi") - number(&value["phi"])).abs());
-        let turning = 1.0 / number(&value["phi"]).sin().abs();
+        let turning = 1.0 / libm::sin(number(&value["phi"])).abs();
         places.see(place, 10.0 * allowed * turning.max(1.0), || format!("{row:?}"));
     }
     times.judge("t1");

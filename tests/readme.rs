@@ -1,6 +1,6 @@
 //! The README's commands run, as they stand, in a copy of what a clone holds.
 
-#![expect(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
+#![expect(clippy::expect_used, reason = "helpers of tests")]
 
 mod support;
 
