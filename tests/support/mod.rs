@@ -13,8 +13,11 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::ffi::OsStr;
 use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::Duration;
 use tempfile::TempDir;
 
 /// The repository.
@@ -194,12 +197,35 @@ pub fn polhode() -> Command {
     command
 }
 
+/// No command of the tests runs longer, even on a busy machine.
+const LIMIT: Duration = Duration::from_secs(300);
+
 /// Runs a command to its end.
+#[track_caller]
 pub fn finish(command: &mut Command) -> Ran {
-    let output = command.stdin(Stdio::null()).output().expect("the command starts");
-    let code = output.status.code().unwrap_or_else(|| panic!("killed: {:?}", output.status));
-    let utf8 = |bytes| String::from_utf8(bytes).expect("UTF-8");
-    Ran { code, out: utf8(output.stdout), err: utf8(output.stderr) }
+    let child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    let mut child = child.spawn().expect("the command starts");
+    let (out, err) = (collect(child.stdout.take()), collect(child.stderr.take()));
+    let (Ok(out), Ok(err)) = (out.recv_timeout(LIMIT), err.recv_timeout(LIMIT)) else {
+        child.kill().expect("killed");
+        panic!("{command:?} does not end");
+    };
+    let status = child.wait().expect("the command ends");
+    let code = status.code().unwrap_or_else(|| panic!("killed: {status:?}"));
+    Ran { code, out, err }
+}
+
+/// What a stream gives until its end.
+fn collect(stream: Option<impl Read + Send + 'static>) -> Receiver<String> {
+    let mut stream = stream.expect("a pipe");
+    let (sender, receiver) = channel();
+    std::thread::spawn(move || {
+        let mut bytes = Vec::new();
+        stream.read_to_end(&mut bytes).expect("readable");
+        // Nobody listens any more when the command took too long.
+        drop(sender.send(String::from_utf8(bytes).expect("UTF-8")));
+    });
+    receiver
 }
 
 /// All files below a folder with their bytes, by path below it.
