@@ -261,7 +261,7 @@ impl Definition for Fig5 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::spin_branches::tests::{assert_claims, assert_references};
+    use crate::experiments::spin_branches::tests::{assert_claims, assert_references};
     use super::*;
     use crate::experiments::preview;
 

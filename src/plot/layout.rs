@@ -159,9 +159,9 @@ fn shaped(panel: &Panel, rect: Rect, spans: &(Span, Span)) -> Rect {
 
 #[cfg(test)]
 mod tests {
-    use super::super::axis::Axis;
-    use super::super::picture::{Cell, Width};
     use super::*;
+    use crate::plot::axis::Axis;
+    use crate::plot::picture::{Cell, Width};
 
     fn panel(x: (f64, f64), y: (f64, f64)) -> Panel {
         Panel::new(Axis::new("*x*").fixed(x.0, x.1), Axis::new("*y*").fixed(y.0, y.1))

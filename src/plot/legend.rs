@@ -212,8 +212,8 @@ pub fn draw_key(page: &mut Document, key: &ToneKey, frame: &Rect, id: &str) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::mark::{Curve, Points};
     use super::*;
+    use crate::plot::mark::{Curve, Points};
 
     #[test]
     fn a_line_and_its_points_are_explained_once() {

@@ -328,9 +328,9 @@ impl Pieces {
 
 #[cfg(test)]
 mod tests {
-    use super::super::axis::Axis;
-    use super::super::mark::{Curve, Points, SphereCurve};
     use super::*;
+    use crate::plot::axis::Axis;
+    use crate::plot::mark::{Curve, Points, SphereCurve};
 
     #[test]
     fn what_cannot_be_drawn_is_refused_with_its_place() {

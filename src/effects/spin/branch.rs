@@ -133,8 +133,8 @@ pub fn slopes(p_theta: &[f64], t1: &[f64]) -> Vec<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::chart::{FLATNESS, TURN, bulge};
     use super::*;
+    use crate::effects::spin::chart::{FLATNESS, TURN, bulge};
 
     const MOMENTA: Momenta = Momenta { from: 1e-9, to: 1e4, step: 0.1 };
 

@@ -145,11 +145,11 @@ impl Compute for ConjugateLocusByIntegration {
 
 #[cfg(test)]
 mod tests {
-    use super::super::conjugate_locus::ConjugateLocus;
-    use super::super::momenta::Momenta;
     use super::*;
     use crate::contract::code::undeclared;
     use crate::contract::node::InputFile;
+    use crate::effects::spin::conjugate_locus::ConjugateLocus;
+    use crate::effects::spin::momenta::Momenta;
     use std::sync::Arc;
 
     /// Every k of Figs. 5, 7 and 8: no row differs by more than is allowed, and f64 is used where it is enough.
@@ -184,7 +184,7 @@ mod tests {
     #[test]
     fn all_code_is_declared() {
         assert_eq!(undeclared(&KIND), Ok(vec![]));
-        assert_eq!(undeclared(&super::super::conjugate_locus::KIND), Ok(vec![]));
-        assert_eq!(undeclared(&super::super::geodesics::KIND), Ok(vec![]));
+        assert_eq!(undeclared(&crate::effects::spin::conjugate_locus::KIND), Ok(vec![]));
+        assert_eq!(undeclared(&crate::effects::spin::geodesics::KIND), Ok(vec![]));
     }
 }

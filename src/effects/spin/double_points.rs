@@ -260,6 +260,6 @@ mod tests {
     #[test]
     fn all_code_is_declared() {
         assert_eq!(crate::contract::code::undeclared(&KIND), Ok(vec![]));
-        assert_eq!(crate::contract::code::undeclared(&super::super::loops::KIND), Ok(vec![]));
+        assert_eq!(crate::contract::code::undeclared(&crate::effects::spin::loops::KIND), Ok(vec![]));
     }
 }

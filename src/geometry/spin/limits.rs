@@ -88,9 +88,9 @@ fn increasing_root<S: Real>(mut low: S, mut high: S, f: impl Fn(S) -> (S, S)) ->
 
 #[cfg(test)]
 mod tests {
-    use super::super::conjugate::{first_conjugate_point, nth_conjugate_time};
-    use super::super::start::Start;
     use super::*;
+    use crate::geometry::spin::conjugate::{first_conjugate_point, nth_conjugate_time};
+    use crate::geometry::spin::start::Start;
 
     /// Oracle: mpmath 1.3 at 40 digits, roots of the printed limit equations.
     #[test]

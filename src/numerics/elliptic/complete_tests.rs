@@ -1,7 +1,7 @@
 //! Oracle: `tests/oracle/elliptic.json` (mpmath, 25 digits), m' from 1e-300 to 1e8, n' from 1e-100 to 1e12.
 
-use super::super::oracle::{relative, worst};
 use super::*;
+use crate::numerics::elliptic::oracle::{relative, worst};
 
 #[test]
 fn first_and_second_kind_are_right_to_a_few_epsilon() {

@@ -1,7 +1,7 @@
 //! Oracle: `tests/oracle/elliptic.json` (mpmath, 25 digits), m' from 1e-300 to 50, φ up to 1e5, n' from 1e-15 to 40.
 
-use super::super::oracle::{relative, worst};
 use super::*;
+use crate::numerics::elliptic::oracle::{relative, worst};
 
 /// The errors of whole periods are those of the complete integral; the amplitude itself is taken as exact.
 #[test]

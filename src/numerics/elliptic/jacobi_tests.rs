@@ -1,7 +1,7 @@
 //! Oracle: `tests/oracle/elliptic.json` (mpmath, 25 digits), m' from 1e-300 to 50, |u| up to 1e4 periods.
 
-use super::super::oracle::{relative, worst};
 use super::*;
+use crate::numerics::elliptic::oracle::{relative, worst};
 
 fn row_error(a: &[f64], v: &[f64], index: usize) -> f64 {
     let (u, mc) = (a[0], a[1]);
@@ -50,7 +50,7 @@ fn limits_and_relations() {
         let am = Jacobi::new(u, 0.96, 0.04).am;
         assert!(am > last);
         assert_eq!(am, -Jacobi::new(-u, 0.96, 0.04).am);
-        let back = super::super::incomplete::incomplete_f(am, 0.96, 0.04);
+        let back = crate::numerics::elliptic::incomplete::incomplete_f(am, 0.96, 0.04);
         // F is badly conditioned in am where dn is small: 1/dn ≤ 1/√m' = 5.
         assert!((back - u).abs() <= 30.0 * f64::EPSILON * (u.abs() + 1.0), "{u}: {back}");
         last = am;
