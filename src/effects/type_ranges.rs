@@ -32,8 +32,9 @@ pub const KIND: Kind = Kind {
 };
 /// The input: a table of kind `trajectory-types`.
 pub const INPUT: &str = "trajectory-types";
-/// How well the search for self-intersections resolves k: where type iii begins the two arcs cross at an angle that
-/// vanishes, and the polygon in which crossings are looked for loses them 1.5e-7 in k beyond the end (seen for `p_θ` from 3e-5 to 1e-3).
+/// How far the end found for type iii may lie from the true one: a bound set after seeing the numbers, its cause not established. Against
+/// k̄ of the same `p_θ` the end lay 1.5e-7 too high for `p_θ` = 3e-5 and 1e-4, 1.4e-7 for 3e-4, and 1.4e-7 too low for 1e-3, which is more
+/// than the bisection's width. Suspected: crossings at a vanishing angle that the polygon loses, or the step [`BEYOND`].
 const SEARCH_RESOLUTION: f64 = 1e-6;
 /// The bisection ends at this width in k.
 const WIDTH: f64 = 1e-10;
