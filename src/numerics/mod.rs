@@ -3,6 +3,8 @@
 pub mod counts;
 pub mod double_double;
 pub mod elliptic;
+pub mod lanes;
+pub mod pack;
 pub mod polynomial_roots;
 pub mod real;
 pub mod roots;

@@ -7,69 +7,79 @@
 //! Sources: B. C. Carlson, *Numerical computation of real or complex elliptic integrals*, Numer. Algorithms 10 (1995)
 //! 13-26; the series to degree 7 are those of the NIST Digital Library, 19.36.1 and 19.36.2.
 //!
+//! On a pack the loops go on while any member needs another duplication; the others keep what they have.
+//!
 //! Not known here: arguments below zero (Cauchy principal values). Outside its domain a function returns NaN.
 
-use crate::numerics::real::Real;
+use crate::numerics::pack::{Mask, Pack};
 
 /// Duplications after which a call gives up: each gains two bits, and the largest ratio of two finite `f64` needs
 /// fewer than 1100.
 const MAX_DUPLICATIONS: usize = 1100;
 
-fn c<S: Real>(numerator: f64, denominator: f64) -> S {
+#[inline(always)]
+fn c<S: Pack>(numerator: f64, denominator: f64) -> S {
     S::from_f64(numerator) / S::from_f64(denominator)
 }
 
-fn not_a_number<S: Real>() -> S {
-    S::from_f64(f64::NAN)
+/// The value inside the domain, NaN outside.
+#[inline(always)]
+fn within<S: Pack>(domain: S::Mask, value: S) -> S {
+    S::select(domain, value, S::from_f64(f64::NAN))
+}
+
+#[inline(always)]
+fn none_negative<S: Pack>(x: S, y: S, z: S) -> S::Mask {
+    x.at_least(S::ZERO).and(y.at_least(S::ZERO)).and(z.at_least(S::ZERO))
 }
 
 /// First kind, `R_F(x, y, z) = ½ ∫₀^∞ dt / √((t+x)(t+y)(t+z))`.
 ///
 /// Domain: `x, y, z ≥ 0`, at most one of them zero. Guarantee: a few ε relative. Outside the domain: NaN.
-pub fn r_f<S: Real>(x: S, y: S, z: S) -> S {
+#[inline(always)]
+pub fn r_f<S: Pack>(x: S, y: S, z: S) -> S {
     let zero = S::ZERO;
-    if !(x >= zero && y >= zero && z >= zero && x + y > zero && y + z > zero && z + x > zero) {
-        return not_a_number();
-    }
+    let in_domain = none_negative(x, y, z).and((x + y).more(zero)).and((y + z).more(zero)).and((z + x).more(zero));
     let quarter = S::from_f64(0.25);
     let third = c::<S>(1.0, 3.0);
     let (mut x, mut y, mut z) = (x, y, z);
     let mut mean = (x + y + z) * third;
     for _ in 0..MAX_DUPLICATIONS {
         let spread = (mean - x).abs().max((mean - y).abs()).max((mean - z).abs());
-        if spread <= S::EPSILON_ROOT_8 * mean {
+        let apart = in_domain.and(spread.more(S::EPSILON_ROOT_8 * mean));
+        if !apart.any() {
             break;
         }
         let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());
         let lambda = rx * ry + rz * (rx + ry);
-        x = (x + lambda) * quarter;
-        y = (y + lambda) * quarter;
-        z = (z + lambda) * quarter;
+        x = S::select(apart, (x + lambda) * quarter, x);
+        y = S::select(apart, (y + lambda) * quarter, y);
+        z = S::select(apart, (z + lambda) * quarter, z);
         mean = (x + y + z) * third;
     }
-    r_f_series(x, y, mean)
+    within(in_domain, r_f_series(x, y, mean))
 }
 
 /// Degenerate first kind, `R_C(x, y) = R_F(x, y, y)`.
 ///
 /// Domain: `x ≥ 0`, `y > 0`. Guarantee: a few ε relative. Outside the domain: NaN.
-pub fn r_c<S: Real>(x: S, y: S) -> S {
-    if !(x >= S::ZERO && y > S::ZERO) {
-        return not_a_number();
-    }
+#[inline(always)]
+pub fn r_c<S: Pack>(x: S, y: S) -> S {
+    let in_domain = x.at_least(S::ZERO).and(y.more(S::ZERO));
     let quarter = S::from_f64(0.25);
     let third = c::<S>(1.0, 3.0);
     let (mut x, mut y) = (x, y);
     let mut mean = (x + y + y) * third;
     for _ in 0..MAX_DUPLICATIONS {
         // The series below is in s = (y − mean)/mean, and |x − mean| = 2|y − mean|.
-        if (y - mean).abs() <= S::EPSILON_ROOT_8 * mean {
+        let apart = in_domain.and((y - mean).abs().more(S::EPSILON_ROOT_8 * mean));
+        if !apart.any() {
             break;
         }
         let ry = y.sqrt();
         let lambda = ry * (x.sqrt() + x.sqrt()) + y;
-        x = (x + lambda) * quarter;
-        y = (y + lambda) * quarter;
+        x = S::select(apart, (x + lambda) * quarter, x);
+        y = S::select(apart, (y + lambda) * quarter, y);
         mean = (x + y + y) * third;
     }
     let s = (y - mean) / mean;
@@ -79,11 +89,12 @@ pub fn r_c<S: Real>(x: S, y: S) -> S {
             + s * (c::<S>(1.0, 7.0)
                 + s * (c::<S>(3.0, 8.0)
                     + s * (c::<S>(9.0, 22.0) + s * (c::<S>(159.0, 208.0) + s * c::<S>(9.0, 8.0))))));
-    (S::ONE + series) / mean.sqrt()
+    within(in_domain, (S::ONE + series) / mean.sqrt())
 }
 
 /// The common series of `R_D` and `R_J` in the elementary symmetric functions of the relative deviations.
-fn second_and_third_kind_series<S: Real>(e2: S, e3: S, e4: S, e5: S) -> S {
+#[inline(always)]
+fn second_and_third_kind_series<S: Pack>(e2: S, e3: S, e4: S, e5: S) -> S {
     e2 * (c::<S>(-3.0, 14.0) + e2 * (c::<S>(9.0, 88.0) - c::<S>(1.0, 16.0) * e2))
         + e3 * (c::<S>(1.0, 6.0) + e2 * (c::<S>(-9.0, 52.0) + c::<S>(45.0, 272.0) * e2) + c::<S>(3.0, 40.0) * e3)
         + e4 * (c::<S>(-3.0, 22.0) + c::<S>(3.0, 20.0) * e2 - c::<S>(9.0, 68.0) * e3)
@@ -93,11 +104,10 @@ fn second_and_third_kind_series<S: Real>(e2: S, e3: S, e4: S, e5: S) -> S {
 /// Second kind, `R_D(x, y, z) = (3/2) ∫₀^∞ dt / ((t+z) √((t+x)(t+y)(t+z)))`.
 ///
 /// Domain: `x, y ≥ 0`, not both zero, `z > 0`. Guarantee: a few ε relative. Outside the domain: NaN.
-pub fn r_d<S: Real>(x: S, y: S, z: S) -> S {
+#[inline(always)]
+pub fn r_d<S: Pack>(x: S, y: S, z: S) -> S {
     let zero = S::ZERO;
-    if !(x >= zero && y >= zero && x + y > zero && z > zero) {
-        return not_a_number();
-    }
+    let in_domain = none_negative(x, y, z).and((x + y).more(zero)).and(z.more(zero));
     let quarter = S::from_f64(0.25);
     let fifth = c::<S>(1.0, 5.0);
     let three = S::from_f64(3.0);
@@ -107,23 +117,25 @@ pub fn r_d<S: Real>(x: S, y: S, z: S) -> S {
     let mut mean = (x + y + three * z) * fifth;
     for _ in 0..MAX_DUPLICATIONS {
         let spread = (mean - x).abs().max((mean - y).abs()).max((mean - z).abs());
-        if spread <= S::EPSILON_ROOT_8 * mean {
+        let apart = in_domain.and(spread.more(S::EPSILON_ROOT_8 * mean));
+        if !apart.any() {
             break;
         }
         let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());
         let lambda = rx * ry + rz * (rx + ry);
-        sum += weight / (rz * (z + lambda));
-        weight *= quarter;
-        x = (x + lambda) * quarter;
-        y = (y + lambda) * quarter;
-        z = (z + lambda) * quarter;
+        sum = S::select(apart, sum + weight / (rz * (z + lambda)), sum);
+        weight = S::select(apart, weight * quarter, weight);
+        x = S::select(apart, (x + lambda) * quarter, x);
+        y = S::select(apart, (y + lambda) * quarter, y);
+        z = S::select(apart, (z + lambda) * quarter, z);
         mean = (x + y + three * z) * fifth;
     }
-    three * sum + weight * r_d_series(x, y, mean)
+    within(in_domain, three * sum + weight * r_d_series(x, y, mean))
 }
 
 /// The Taylor series of `R_F` about the mean of arguments that are close to each other.
-fn r_f_series<S: Real>(x: S, y: S, mean: S) -> S {
+#[inline(always)]
+fn r_f_series<S: Pack>(x: S, y: S, mean: S) -> S {
     let inverse = S::ONE / mean;
     let dx = (mean - x) * inverse;
     let dy = (mean - y) * inverse;
@@ -136,7 +148,8 @@ fn r_f_series<S: Real>(x: S, y: S, mean: S) -> S {
 }
 
 /// The Taylor series of `R_D` about the weighted mean of arguments that are close to each other.
-fn r_d_series<S: Real>(x: S, y: S, mean: S) -> S {
+#[inline(always)]
+fn r_d_series<S: Pack>(x: S, y: S, mean: S) -> S {
     let three = S::from_f64(3.0);
     let inverse = S::ONE / mean;
     let dx = (mean - x) * inverse;
@@ -154,11 +167,10 @@ fn r_d_series<S: Real>(x: S, y: S, mean: S) -> S {
 /// First and second kind of the same arguments, `(R_F(x, y, z), R_D(x, y, z))`, by one run of duplications.
 ///
 /// The two share every square root: about 0.6 of the time of both calls. Domain and guarantee: those of [`r_d`].
-pub fn r_f_and_r_d<S: Real>(x: S, y: S, z: S) -> (S, S) {
+#[inline(always)]
+pub fn r_f_and_r_d<S: Pack>(x: S, y: S, z: S) -> (S, S) {
     let zero = S::ZERO;
-    if !(x >= zero && y >= zero && x + y > zero && z > zero) {
-        return (not_a_number(), not_a_number());
-    }
+    let in_domain = none_negative(x, y, z).and((x + y).more(zero)).and(z.more(zero));
     let quarter = S::from_f64(0.25);
     let third = c::<S>(1.0, 3.0);
     let fifth = c::<S>(1.0, 5.0);
@@ -170,30 +182,31 @@ pub fn r_f_and_r_d<S: Real>(x: S, y: S, z: S) -> (S, S) {
     for _ in 0..MAX_DUPLICATIONS {
         // The spread about the mean of R_D; about that of R_F it is smaller than 5/3 of the range and both are within the series.
         let spread = (mean - x).abs().max((mean - y).abs()).max((mean - z).abs());
-        if spread <= S::EPSILON_ROOT_8 * mean {
+        let apart = in_domain.and(spread.more(S::EPSILON_ROOT_8 * mean));
+        if !apart.any() {
             break;
         }
         let (rx, ry, rz) = (x.sqrt(), y.sqrt(), z.sqrt());
         let lambda = rx * ry + rz * (rx + ry);
-        sum += weight / (rz * (z + lambda));
-        weight *= quarter;
-        x = (x + lambda) * quarter;
-        y = (y + lambda) * quarter;
-        z = (z + lambda) * quarter;
+        sum = S::select(apart, sum + weight / (rz * (z + lambda)), sum);
+        weight = S::select(apart, weight * quarter, weight);
+        x = S::select(apart, (x + lambda) * quarter, x);
+        y = S::select(apart, (y + lambda) * quarter, y);
+        z = S::select(apart, (z + lambda) * quarter, z);
         mean = (x + y + three * z) * fifth;
     }
-    (r_f_series(x, y, (x + y + z) * third), three * sum + weight * r_d_series(x, y, mean))
+    let first = r_f_series(x, y, (x + y + z) * third);
+    (within(in_domain, first), within(in_domain, three * sum + weight * r_d_series(x, y, mean)))
 }
 
 /// Third kind, `R_J(x, y, z, p) = (3/2) ∫₀^∞ dt / ((t+p) √((t+x)(t+y)(t+z)))`.
 ///
 /// Domain: `x, y, z ≥ 0`, at most one of them zero, `p > 0`. Guarantee: a few ε relative. Outside the domain: NaN.
-pub fn r_j<S: Real>(x: S, y: S, z: S, p: S) -> S {
+#[inline(always)]
+pub fn r_j<S: Pack>(x: S, y: S, z: S, p: S) -> S {
     let zero = S::ZERO;
-    let in_domain = x >= zero && y >= zero && z >= zero && x + y > zero && y + z > zero && z + x > zero;
-    if !(in_domain && p > zero) {
-        return not_a_number();
-    }
+    let in_domain = none_negative(x, y, z).and((x + y).more(zero)).and((y + z).more(zero)).and((z + x).more(zero));
+    let in_domain = in_domain.and(p.more(zero));
     let quarter = S::from_f64(0.25);
     let fifth = c::<S>(1.0, 5.0);
     let two = S::from_f64(2.0);
@@ -204,7 +217,8 @@ pub fn r_j<S: Real>(x: S, y: S, z: S, p: S) -> S {
     let mut mean = (x + y + z + two * p) * fifth;
     for _ in 0..MAX_DUPLICATIONS {
         let spread = (mean - x).abs().max((mean - y).abs()).max((mean - z).abs()).max((mean - p).abs());
-        if spread <= S::EPSILON_ROOT_8 * mean {
+        let apart = in_domain.and(spread.more(S::EPSILON_ROOT_8 * mean));
+        if !apart.any() {
             break;
         }
         let (rx, ry, rz, rp) = (x.sqrt(), y.sqrt(), z.sqrt(), p.sqrt());
@@ -213,12 +227,12 @@ pub fn r_j<S: Real>(x: S, y: S, z: S, p: S) -> S {
         // Carlson's 1 + e = 1 + (√p−√x)(√p−√y)(√p−√z)/d with d = (√p+√x)(√p+√y)(√p+√z) is 2√p (p + λ)/d: a quotient of
         // positive terms, where e itself is near −1 and 1 + e would cancel (p or two of the roots small).
         let one_plus_e = ((rp + rp) / dx) * ((p + lambda) / (dy * dz));
-        sum += weight / (dx * dy * dz) * r_c(S::ONE, one_plus_e);
-        weight *= quarter;
-        x = (x + lambda) * quarter;
-        y = (y + lambda) * quarter;
-        z = (z + lambda) * quarter;
-        p = (p + lambda) * quarter;
+        sum = S::select(apart, sum + weight / (dx * dy * dz) * r_c(S::ONE, one_plus_e), sum);
+        weight = S::select(apart, weight * quarter, weight);
+        x = S::select(apart, (x + lambda) * quarter, x);
+        y = S::select(apart, (y + lambda) * quarter, y);
+        z = S::select(apart, (z + lambda) * quarter, z);
+        p = S::select(apart, (p + lambda) * quarter, p);
         mean = (x + y + z + two * p) * fifth;
     }
     let inverse = S::ONE / mean;
@@ -233,7 +247,7 @@ pub fn r_j<S: Real>(x: S, y: S, z: S, p: S) -> S {
     let e4 = (two * xyz + e2 * dp + three * pp * dp) * dp;
     let e5 = xyz * pp;
     let series = second_and_third_kind_series(e2, e3, e4, e5);
-    S::from_f64(6.0) * sum + weight * (S::ONE + series) * inverse / mean.sqrt()
+    within(in_domain, S::from_f64(6.0) * sum + weight * (S::ONE + series) * inverse / mean.sqrt())
 }
 
 #[cfg(test)]
