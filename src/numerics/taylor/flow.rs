@@ -12,7 +12,7 @@
 use crate::numerics::real::Real;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-/// Highest order of a series. A request of `1e-32` needs order 38 (see [`crate::numerics::taylor::step::order_for`]).
+/// Highest order of a series. A request of `1e-32` needs order 39 (see [`crate::numerics::taylor::step::order_for`]).
 pub const MAX_ORDER: usize = 39;
 
 /// Number of coefficients that a series has room for.

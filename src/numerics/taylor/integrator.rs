@@ -8,7 +8,7 @@
 use crate::numerics::counts::Work;
 use crate::numerics::real::Real;
 use crate::numerics::taylor::flow::{Elements, Flow};
-use crate::numerics::taylor::step::{ErrorNorm, Jet, horner_increment, order_for};
+use crate::numerics::taylor::step::{ErrorNorm, Jet, StepPolicy, horner_increment};
 use std::ops::ControlFlow;
 
 /// Steps after which an integration gives up unless told otherwise. 1e4 periods of the article's problems take some
@@ -18,7 +18,8 @@ pub const DEFAULT_MAXIMUM_STEPS: u64 = 1_000_000;
 /// What is asked of an integration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Relative error per step. Requests below the scalar's ε are taken as ε: the rest is rounding.
+    /// Relative error per step: what the last terms kept may amount to. Requests below the scalar's ε are taken as ε: the
+    /// rest is rounding.
     pub tolerance: f64,
     /// Steps after which to give up.
     pub maximum_steps: u64,
@@ -180,8 +181,9 @@ pub struct Arrival<S, State> {
 
 /// Integrates `x' = f(x)` from `initial` at `span.0` to `span.1` (later or earlier).
 ///
-/// Guarantee: each step's truncation error is below `tolerance` of the flow's scales; at `tolerance = ε` rounding alone
-/// is left, a few ε times the growth of the flow. Special case: an empty span returns the initial state.
+/// Guarantee: each step's truncation error is about `tolerance` of the flow's scales (see
+/// [`crate::numerics::taylor::step`]; on the way to the end the flow multiplies it by its growth); at `tolerance = ε`
+/// rounding alone is left, a few ε times the growth of the flow. Special case: an empty span returns the initial state.
 ///
 /// # Errors
 /// [`IntegrationError`], with time and state.
@@ -194,7 +196,8 @@ pub fn integrate<S: Real, F: Flow<S>, O: Observer<S, F>>(
 ) -> Result<Arrival<S, F::State<S>>, IntegrationError> {
     let dimension = <F::State<S> as Elements<S>>::LEN;
     check_request(span, settings)?;
-    let mut jet = Jet::<S, F>::new(order_for(settings.tolerance.max(S::EPSILON.to_f64())));
+    let policy = StepPolicy::new(settings.tolerance, S::EPSILON.to_f64());
+    let mut jet = Jet::<S, F>::new(policy.order);
     let order = jet.order();
     let mut work = Work { state_dimension: dimension as u64, ..Work::default() };
     let (mut time, mut state) = (Compensated::new(span.0), *initial);
@@ -210,7 +213,7 @@ pub fn integrate<S: Real, F: Flow<S>, O: Observer<S, F>>(
             return Err(IntegrationError::StepLimit { steps: work.steps, time, end, state });
         }
         jet.expand(flow, &state);
-        let mut length = S::from_f64(jet.step_length(flow, &state, settings.norm));
+        let mut length = S::from_f64(jet.step_length(flow, &state, settings.norm, &policy));
         // "Not less than" and not "more than": false for NaN, which falls through to the error below.
         let last = length >= remaining.abs();
         length = if last { remaining } else { length * direction };
@@ -262,6 +265,7 @@ fn as_numbers<S: Real, F: Flow<S>>(state: &F::State<S>) -> Vec<f64> {
 mod tests {
     use super::*;
     use crate::numerics::taylor::flow::{Columns, Joined, Series, Tangent, WithColumns, convolve};
+    use crate::numerics::taylor::step::order_for;
 
     /// `x'' = −x³` with its tangent: Duffing's oscillator without a linear term; x(0) = 1, x'(0) = 0 has the period
     /// 4·K(½) = 7.416298709205487… (lemniscate), energy x'²/2 + x⁴/4.

@@ -1,9 +1,9 @@
 //! Power-series (Taylor) integration of polynomial flows.
 //!
 //! The Taylor coefficients of a solution of `x' = f(x)` with polynomial `f` follow order by order from Cauchy products;
-//! a step sums the series inside a fixed fraction of its radius of convergence, at an order that the requested error
-//! alone decides. The system that is integrated is assembled at compile time from types, so what is not asked for has
-//! no state, no equation and no cost:
+//! a step goes as far as the last terms kept stay at the requested error, which alone decides the order. The system
+//! that is integrated is assembled at compile time from types, so what is not asked for has no state, no equation and
+//! no cost:
 //!
 //! - [`flow`]: what a flow and its tangent columns (Jacobi fields) are; Cauchy products; type composition;
 //! - [`step`](mod@step): order and step length from the requested error, the coefficients of one step;
