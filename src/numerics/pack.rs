@@ -17,6 +17,8 @@ use std::ops::{AddAssign, DivAssign, MulAssign, SubAssign};
 pub trait Mask: Copy + Debug {
     /// The same for all members.
     fn splat(value: bool) -> Self;
+    /// Member `index` set to `member(index)`.
+    fn from_lanes(member: impl FnMut(usize) -> bool) -> Self;
     /// Whether it is true of any member.
     fn any(self) -> bool;
     /// Whether it is true of every member.
@@ -35,6 +37,10 @@ impl Mask for bool {
     #[inline(always)]
     fn splat(value: bool) -> Self {
         value
+    }
+    #[inline(always)]
+    fn from_lanes(mut member: impl FnMut(usize) -> bool) -> Self {
+        member(0)
     }
     #[inline(always)]
     fn any(self) -> bool {

@@ -20,7 +20,7 @@ use crate::numerics::real::Real;
 use crate::numerics::taylor::dense::sample;
 use crate::numerics::taylor::events::{Component, Events};
 use crate::numerics::taylor::flow::{
-    Algebra, Columns, Flow, Joined, Series, Tangent, WithColumns, convolve, convolve_square, largest,
+    Algebra, Columns, Flow, Joined, Series, Tangent, WithColumns, convolve_each, largest,
 };
 use crate::numerics::taylor::integrator::{IntegrationError, Settings, integrate};
 
@@ -66,15 +66,17 @@ impl<S: Algebra> Flow<S> for SerretAndoyerFlow<S> {
         let constant = |value: S| if n == 0 { value } else { S::number(0.0) };
         let half = S::number(0.5);
         auxiliary[0][n] = constant(c - b) + (b - a) * w[n];
-        auxiliary[1][n] = convolve(p_y, &auxiliary[0], n);
-        auxiliary[2][n] = constant(self.p_x * self.p_x) - convolve_square(p_y, n);
+        let [rate, square] = convolve_each([(p_y, &auxiliary[0]), (p_y, p_y)], n);
+        auxiliary[1][n] = rate;
+        auxiliary[2][n] = constant(self.p_x * self.p_x) - square;
         let y_rate = &auxiliary[1];
+        let [force, w_rate, sine_rate] = convolve_each([(&auxiliary[2], sine), (w, y_rate), (sine, y_rate)], n);
         [
             self.p_x * (constant(b) - (b - a) * w[n]),
-            y_rate[n],
-            (b - a) * half * convolve(&auxiliary[2], sine, n),
-            (y_rate[n] - (convolve(w, y_rate, n) * S::number(2.0))) * S::number(2.0),
-            convolve(sine, y_rate, n),
+            rate,
+            (b - a) * half * force,
+            (rate - w_rate * S::number(2.0)) * S::number(2.0),
+            sine_rate,
         ]
     }
 
@@ -105,16 +107,14 @@ impl<S: Algebra> Tangent<S> for SerretAndoyerFlow<S> {
         let [a, b, _] = self.inverse_inertia;
         let [_, _, p_y, sine, w] = state;
         let [delta_y, delta_p_y] = column;
-        own[0][n] = convolve(p_y, sine, n);
-        own[1][n] = convolve(p_y, delta_p_y, n);
-        own[2][n] = convolve(&auxiliary[2], delta_y, n);
+        let pairs = [(p_y, sine), (p_y, delta_p_y), (&auxiliary[2], delta_y), (&auxiliary[0], delta_p_y)];
+        let [p_sine, p_delta, kinetic, by_momentum] = convolve_each(pairs, n);
+        (own[0][n], own[1][n], own[2][n]) = (p_sine, p_delta, kinetic);
+        let [turned, curved, by_position] = convolve_each([(&own[1], sine), (&own[2], w), (&own[0], delta_y)], n);
         // δ(½(p_x² − p_y²) sin 2y) = (p_x δp_x − p_y δp_y) S + (p_x² − p_y²)(1 − 2w) δy.
-        let direction = self.p_x * *delta_p_x * sine[n] - convolve(&own[1], sine, n);
-        let position = own[2][n] - convolve(&own[2], w, n) * S::number(2.0);
-        [
-            convolve(&auxiliary[0], delta_p_y, n) + (b - a) * convolve(&own[0], delta_y, n),
-            (b - a) * (direction + position),
-        ]
+        let direction = self.p_x * *delta_p_x * sine[n] - turned;
+        let position = kinetic - curved * S::number(2.0);
+        [by_momentum + (b - a) * by_position, (b - a) * (direction + position)]
     }
 
     #[inline(always)]
@@ -167,7 +167,7 @@ pub enum FlowError {
     Integration(#[from] IntegrationError),
 }
 
-fn posed<S: Real>(a: S, b: S, c: S, y0: S, p_x: S, p_y: S) -> Result<SerretAndoyerFlow<S>, FlowError> {
+pub(super) fn posed<S: Real>(a: S, b: S, c: S, y0: S, p_x: S, p_y: S) -> Result<SerretAndoyerFlow<S>, FlowError> {
     let positive = "must be finite and positive";
     let check = |name, value: S, accepted, good: bool| {
         let good = good && value.is_finite();

@@ -8,6 +8,7 @@ pub mod curvature;
 pub mod darboux;
 pub mod extremal;
 pub mod flow;
+pub mod flow_lanes;
 pub mod metric;
 pub mod path;
 pub mod period;

@@ -20,7 +20,7 @@ use crate::numerics::real::Real;
 use crate::numerics::taylor::dense::sample;
 use crate::numerics::taylor::events::{Component, EventFunction, EventRoot, EventSeries, Events};
 use crate::numerics::taylor::flow::{
-    Algebra, Columns, Flow, Joined, Series, Tangent, WithColumns, convolve, largest, product,
+    Algebra, Columns, Flow, Joined, Series, Tangent, WithColumns, convolve_each, largest, product_each,
 };
 use crate::numerics::taylor::integrator::{IntegrationError, Settings, integrate};
 use crate::numerics::taylor::step::{Jet, absolute_sum};
@@ -56,14 +56,15 @@ impl<S: Algebra> Flow<S> for SpinLift<S> {
     fn coefficients(&self, n: usize, state: &[Series<S>; 6], _: &mut [Series<S>; 0]) -> [S; 6] {
         let (first, third) = (self.half_inverse_k_squared, S::number(0.5));
         let [r1, r2, r3, h1, h2, h3] = state;
-        let times = |a, b| convolve(a, b, n);
+        let pairs = [(h3, r2), (h3, r1), (h1, r3), (h1, r2), (h3, h2), (h1, h3), (h1, h2)];
+        let [h3r2, h3r1, h1r3, h1r2, h3h2, h1h3, h1h2] = convolve_each(pairs, n);
         [
-            -(third * times(h3, r2)),
-            third * times(h3, r1) - first * times(h1, r3),
-            first * times(h1, r2),
-            -(third * times(h3, h2)),
-            (third - first) * times(h1, h3),
-            first * times(h1, h2),
+            -(third * h3r2),
+            third * h3r1 - first * h1r3,
+            first * h1r2,
+            -(third * h3h2),
+            (third - first) * h1h3,
+            first * h1h2,
         ]
     }
 
@@ -99,12 +100,9 @@ impl<S: Algebra> Tangent<S> for SpinLift<S> {
         let (first, third) = (self.half_inverse_k_squared, S::number(0.5));
         let [_, _, _, h1, h2, h3] = state;
         let [d1, d2, d3] = column;
-        let times = |a, b| convolve(a, b, n);
-        [
-            -(third * (times(d3, h2) + times(h3, d2))),
-            (third - first) * (times(d1, h3) + times(h1, d3)),
-            first * (times(d1, h2) + times(h1, d2)),
-        ]
+        let pairs = [(d3, h2), (h3, d2), (d1, h3), (h1, d3), (d1, h2), (h1, d2)];
+        let [d3h2, h3d2, d1h3, h1d3, d1h2, h1d2] = convolve_each(pairs, n);
+        [-(third * (d3h2 + h3d2)), (third - first) * (d1h3 + h1d3), first * (d1h2 + h1d2)]
     }
 
     #[inline(always)]
@@ -122,19 +120,29 @@ pub(super) struct ConjugateScalar;
 pub(super) type Lifted<S> = WithColumns<SpinLift<S>, (), 1>;
 pub(super) type LiftedState<T> = Joined<[T; 6], Columns<[T; 3], 1>>;
 
-impl<S: Real> EventFunction<S, Lifted<S>> for ConjugateScalar {
+impl<S: Algebra> EventFunction<S, Lifted<S>> for ConjugateScalar {
     const DEGREE: usize = 2;
+    #[inline(always)]
     fn series(&self, jet: &Jet<S, Lifted<S>>, last: usize, out: &mut EventSeries<S>) {
-        let (r, column) = (&jet.state.base, &jet.state.columns.0[0]);
-        let term = |i: usize, n| product(&r[i][..=jet.order()], &column[i][..=jet.order()], n);
-        for (n, coefficient) in out.iter_mut().enumerate().take(last + 1) {
-            *coefficient = -(term(0, n) + term(1, n) + term(2, n));
+        self.extend(jet, 0, last, out);
+    }
+    #[inline(always)]
+    fn extend(&self, jet: &Jet<S, Lifted<S>>, first: usize, last: usize, out: &mut EventSeries<S>) {
+        let ([r1, r2, r3, ..], [d1, d2, d3]) = (&jet.state.base, &jet.state.columns.0[0]);
+        let pairs = [(r1, d1), (r2, d2), (r3, d3)];
+        for (n, coefficient) in out.iter_mut().enumerate().take(last + 1).skip(first) {
+            let [a, b, c] = product_each(pairs, jet.order(), n);
+            *coefficient = -(a + b + c);
         }
     }
+    #[inline(always)]
     fn magnitude(&self, jet: &Jet<S, Lifted<S>>, length: S) -> S {
         let (r, column) = (&jet.state.base, &jet.state.columns.0[0]);
-        let bound = |series| absolute_sum(series, jet.order(), length);
-        (0..3).fold(S::ZERO, |sum, i| sum + bound(&r[i]) * bound(&column[i]))
+        let mut sum = S::number(0.0);
+        for i in 0..3 {
+            sum = sum + absolute_sum(&r[i], jet.order(), length) * absolute_sum(&column[i], jet.order(), length);
+        }
+        sum
     }
 }
 

@@ -26,6 +26,7 @@ pub mod expansion;
 pub mod extremal;
 pub mod landen;
 pub mod lift;
+pub mod lift_lanes;
 pub mod limits;
 pub mod phase;
 pub mod self_intersection;

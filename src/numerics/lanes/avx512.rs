@@ -80,6 +80,10 @@ impl Mask for Avx512Mask {
         Self(if value { 0xff } else { 0 })
     }
     #[inline(always)]
+    fn from_lanes(mut member: impl FnMut(usize) -> bool) -> Self {
+        Self((0..8).fold(0, |bits, i| bits | (u8::from(member(i)) << i)))
+    }
+    #[inline(always)]
     fn any(self) -> bool {
         self.0 != 0
     }

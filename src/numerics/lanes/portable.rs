@@ -64,6 +64,10 @@ impl Mask for PortableMask {
         Self([if value { u64::MAX } else { 0 }; 8])
     }
     #[inline(always)]
+    fn from_lanes(mut member: impl FnMut(usize) -> bool) -> Self {
+        Self(from_fn(|i| if member(i) { u64::MAX } else { 0 }))
+    }
+    #[inline(always)]
     fn any(self) -> bool {
         self.0.iter().fold(0, |sum, bits| sum | bits) != 0
     }

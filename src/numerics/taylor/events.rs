@@ -12,9 +12,10 @@
 //! Not known here: what the function means.
 
 use crate::numerics::counts::Work;
+use crate::numerics::pack::{Mask, Pack};
 use crate::numerics::polynomial_roots::{MAX_COEFFICIENTS, RootCluster, visit_unit_interval_roots};
 use crate::numerics::real::Real;
-use crate::numerics::taylor::flow::{Elements, Flow};
+use crate::numerics::taylor::flow::{Algebra, Elements, Flow};
 use crate::numerics::taylor::integrator::{Observer, Step};
 use crate::numerics::taylor::step::{Jet, absolute_sum};
 use std::ops::ControlFlow;
@@ -23,16 +24,29 @@ use std::ops::ControlFlow;
 /// per product and one per sum that meet in a coefficient, most of them far smaller; doubled for both sides of a joint.
 const NOISE_IN_EPSILONS: f64 = 4.0;
 
+/// What a function's series may leave out, in units of the request: far less than what the step's own series leave out.
+const LEFT_OUT: f64 = 1e-2;
+
+/// Members of the widest pack.
+const MOST_MEMBERS: usize = 8;
+
 /// Coefficients of an event function along a step.
 pub type EventSeries<S> = [S; MAX_COEFFICIENTS];
 
 /// A polynomial function of the state whose zeros are the events.
-pub trait EventFunction<S: Real, F: Flow<S>> {
+pub trait EventFunction<S: Algebra, F: Flow<S>> {
     /// Its degree in the components of the state.
     const DEGREE: usize;
 
     /// Writes the coefficients `0..=last` of the function of the step's polynomials, which end with the jet's order.
     fn series(&self, jet: &Jet<S, F>, last: usize, out: &mut EventSeries<S>);
+
+    /// Writes the coefficients `first..=last`, those before being there already.
+    #[inline(always)]
+    fn extend(&self, jet: &Jet<S, F>, first: usize, last: usize, out: &mut EventSeries<S>) {
+        let _ = first;
+        self.series(jet, last, out);
+    }
 
     /// An upper bound, on offsets up to `length`, of the sum of the absolute values of the terms that the function adds
     /// up: what rounding errors are relative to.
@@ -46,11 +60,13 @@ pub struct Component(
     pub usize,
 );
 
-impl<S: Real, F: Flow<S>> EventFunction<S, F> for Component {
+impl<S: Algebra, F: Flow<S>> EventFunction<S, F> for Component {
     const DEGREE: usize = 1;
+    #[inline(always)]
     fn series(&self, jet: &Jet<S, F>, last: usize, out: &mut EventSeries<S>) {
         out[..=last].copy_from_slice(&jet.state.get(self.0)[..=last]);
     }
+    #[inline(always)]
     fn magnitude(&self, jet: &Jet<S, F>, length: S) -> S {
         absolute_sum(jet.state.get(self.0), jet.order(), length)
     }
@@ -82,55 +98,58 @@ impl<E, S: Real> Zeros<E, S> {
         Zeros { function, vanishing_order, held: None }
     }
 
-    /// The function's coefficients in units of the step, `u = offset / length`, so that they are comparable and the
-    /// interval is `[0, 1]`; the first `shift` left out. With their number and the noise.
-    fn expand<F: Flow<S>>(&self, step: &Step<'_, S, F>, shift: usize) -> (EventSeries<S>, usize, S)
-    where
-        E: EventFunction<S, F>,
-    {
-        let order = step.jet.order();
-        let unit = S::EPSILON * self.function.magnitude(step.jet, step.length);
-        let highest = (E::DEGREE * order).min(MAX_COEFFICIENTS - 1);
-        let mut last = order.min(highest);
-        loop {
-            let mut scaled = [S::ZERO; MAX_COEFFICIENTS];
-            self.function.series(step.jet, last, &mut scaled);
-            let mut power = S::ONE;
-            for c in scaled[..=last].iter_mut() {
-                *c *= power;
-                power *= step.length;
-            }
-            let tail = scaled[last].abs() + scaled[last - 1].abs();
-            let settled = last == order * E::DEGREE || tail <= unit * S::from_f64(0.25);
-            if settled || last == highest {
-                scaled.copy_within(shift..=last, 0);
-                let noise = unit * S::from_f64(NOISE_IN_EPSILONS);
-                return (scaled, last + 1 - shift, if settled { noise } else { noise + tail });
-            }
-            last = (last + order / 2).min(highest);
-        }
-    }
-
     /// Visits the zeros on one step. Guarantee: over all steps every zero is visited once.
     pub fn visit<F: Flow<S>>(
         &mut self,
         step: &Step<'_, S, F>,
         work: &mut Work,
-        mut visitor: impl FnMut(ZeroCluster<S>, &mut Work) -> ControlFlow<()>,
+        visitor: impl FnMut(ZeroCluster<S>, &mut Work) -> ControlFlow<()>,
     ) -> ControlFlow<()>
     where
         E: EventFunction<S, F>,
     {
-        work.event_evaluations += 1;
+        let mut expansion = Expansion::new();
+        let noise = expansion.of(&self.function, step.jet, step.length, step.tolerance, true);
         let shift = if step.first { self.vanishing_order } else { 0 };
-        let (scaled, count, noise) = self.expand(step, shift);
+        let scaled = &expansion.scaled[shift..=expansion.last[0]];
+        if expansion.may_vanish(step.first, self.vanishing_order, noise) {
+            self.isolate(scaled, noise, (step.length, step.last), work, visitor)
+        } else {
+            self.pass(work, visitor)
+        }
+    }
+
+    /// No zero on this step: what was held back from the step before is visited.
+    pub(super) fn pass(
+        &mut self,
+        work: &mut Work,
+        mut visitor: impl FnMut(ZeroCluster<S>, &mut Work) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        work.event_evaluations += 1;
+        match self.held.take() {
+            Some(zero) => {
+                work.roots_found += 1;
+                visitor(zero, work)
+            }
+            None => ControlFlow::Continue(()),
+        }
+    }
+
+    /// Visits the zeros on a step of this length (and whether it is the last) with these coefficients in units of the step.
+    pub(super) fn isolate(
+        &mut self,
+        scaled: &[S],
+        noise: S,
+        (length, is_last): (S, bool),
+        work: &mut Work,
+        mut visitor: impl FnMut(ZeroCluster<S>, &mut Work) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        work.event_evaluations += 1;
         let mut previous = self.held.take();
-        let rest = scaled[1..count].iter().fold(noise, |sum, c| sum + c.abs());
-        if scaled[0].abs() <= rest {
             work.root_isolations += 1;
             let held = &mut self.held;
-            visit_unit_interval_roots(&scaled[..count], noise, |cluster| {
-                let mut zero = on_step(&cluster, step.length);
+            visit_unit_interval_roots(scaled, noise, |cluster| {
+                let mut zero = on_step(&cluster, length);
                 if let Some(before) = previous.take() {
                     if cluster.lower <= S::ZERO {
                         // Both sides of the joint see it: one zero.
@@ -141,15 +160,13 @@ impl<E, S: Real> Zeros<E, S> {
                         visitor(before, work)?;
                     }
                 }
-                if cluster.upper >= S::ONE && !step.last {
-                    *held = Some(ZeroCluster { offset: zero.offset - step.length, ..zero });
+                if cluster.upper >= S::ONE && !is_last {
+                    *held = Some(ZeroCluster { offset: zero.offset - length, ..zero });
                     return ControlFlow::Continue(());
                 }
                 work.roots_found += 1;
                 visitor(zero, work)
             })?;
-        }
-        // Otherwise the constant term outweighs all others: no zero on this step.
         match previous {
             Some(zero) => {
                 work.roots_found += 1;
@@ -157,6 +174,95 @@ impl<E, S: Real> Zeros<E, S> {
             }
             None => ControlFlow::Continue(()),
         }
+    }
+}
+
+/// A function's coefficients along a step in units of the step, `u = offset / length`, so that they are comparable and
+/// the interval is `[0, 1]`. Made once, and reused by every step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Expansion<P> {
+    raw: EventSeries<P>,
+    /// The coefficients.
+    pub(super) scaled: EventSeries<P>,
+    /// The last that matters, for each member of the pack.
+    pub(super) last: [usize; MOST_MEMBERS],
+    /// The least and the largest of these.
+    lowest: usize,
+    highest: usize,
+}
+
+impl<P: Pack> Expansion<P> {
+    pub(super) fn new() -> Self {
+        let zero = [P::ZERO; MAX_COEFFICIENTS];
+        Expansion { raw: zero, scaled: zero, last: [0; MOST_MEMBERS], lowest: 0, highest: 0 }
+    }
+
+    /// Expands a function over a step until what is left out does not matter, for the members that are `active`; returns
+    /// the noise: what rounding, and what was left out, may hide.
+    #[inline(always)]
+    pub(super) fn of<F: Flow<P>, E: EventFunction<P, F>>(
+        &mut self,
+        function: &E,
+        jet: &Jet<P, F>,
+        length: P,
+        tolerance: f64,
+        active: P::Mask,
+    ) -> P {
+        let order = jet.order();
+        let magnitude = function.magnitude(jet, length);
+        let unit = P::EPSILON * magnitude;
+        let mut noise = unit * P::from_f64(NOISE_IN_EPSILONS);
+        let negligible = (P::EPSILON * P::from_f64(0.25)).max(P::from_f64(tolerance * LEFT_OUT)) * magnitude;
+        let highest = (E::DEGREE * order).min(MAX_COEFFICIENTS - 1);
+        let (mut first, mut last, mut power) = (0, order.min(highest), P::ONE);
+        self.lowest = last;
+        let mut open = active;
+        loop {
+            function.extend(jet, first, last, &mut self.raw);
+            for n in first..=last {
+                self.scaled[n] = self.raw[n] * power;
+                power *= length;
+            }
+            for member in 0..P::WIDTH {
+                if open.lane(member) {
+                    self.last[member] = last;
+                }
+            }
+            self.highest = last;
+            if last == order * E::DEGREE {
+                return noise;
+            }
+            let tail = self.scaled[last].abs() + self.scaled[last - 1].abs();
+            // What is left out is part of the noise, unless rounding is larger anyway.
+            let hidden = tail.at_most(unit * P::from_f64(0.25));
+            let ends = open.and(if last == highest { P::Mask::splat(true) } else { tail.at_most(negligible) });
+            noise = P::select(ends.and(hidden.not()), noise + tail, noise);
+            open = open.and(ends.not());
+            if !open.any() {
+                return noise;
+            }
+            (first, last) = (last + 1, (last + order / 2).min(highest));
+        }
+    }
+
+    /// Where the constant term does not outweigh all others, and the noise: elsewhere there is no zero on the step. For
+    /// the members whose step is the first, `vanishing_order` coefficients are left out.
+    #[inline(always)]
+    pub(super) fn may_vanish(&self, first: P::Mask, vanishing_order: usize, noise: P) -> P::Mask {
+        let mut rest = noise;
+        for n in 1..=self.highest {
+            let mut counts = if n > self.lowest {
+                P::Mask::from_lanes(|member| n <= self.last[member])
+            } else {
+                P::Mask::splat(true)
+            };
+            if n <= vanishing_order {
+                counts = counts.and(first.not());
+            }
+            let size = self.scaled[n].abs();
+            rest = P::select(counts, rest + size, rest);
+        }
+        P::select(first, self.scaled[vanishing_order], self.scaled[0]).abs().at_most(rest)
     }
 }
 

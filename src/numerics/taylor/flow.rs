@@ -51,7 +51,11 @@ impl<S: Real> Algebra for S {
 /// The largest absolute value: the common scale of components that turn into each other.
 #[inline(always)]
 pub fn largest<S: Algebra>(components: &[S]) -> S {
-    components.iter().fold(S::number(0.0), |scale, &x| scale.larger(x.size()))
+    let mut scale = S::number(0.0);
+    for x in components {
+        scale = scale.larger(x.size());
+    }
+    scale
 }
 
 /// A fixed-size collection of `T`, addressed by index: an array, or arrays joined by [`Joined`] and [`Columns`].
@@ -268,6 +272,43 @@ fn reversed_dot<S: Algebra>(a: &[S], b: &[S]) -> S {
         sum = sum + *u * *v;
     }
     sum
+}
+
+/// Coefficient `n` of several products of series at once, `Σ a_i b_{n−i}` of each pair.
+///
+/// One loop for all of them: a series that stands in several pairs is read once, and the sums do not wait for each other.
+#[inline(always)]
+pub fn convolve_each<S: Algebra, const K: usize>(pairs: [(&Series<S>, &Series<S>); K], n: usize) -> [S; K] {
+    let n = n.min(MAX_ORDER);
+    let mut sums = [S::number(0.0); K];
+    for k in 0..K {
+        sums[k] = pairs[k].0[0] * pairs[k].1[n];
+    }
+    for i in 1..=n {
+        let j = (n - i).min(MAX_ORDER);
+        for k in 0..K {
+            sums[k] = sums[k] + pairs[k].0[i] * pairs[k].1[j];
+        }
+    }
+    sums
+}
+
+/// Coefficient `n`, which may be beyond the order, of several products of polynomials of this order.
+#[inline(always)]
+pub fn product_each<S: Algebra, const K: usize>(
+    pairs: [(&Series<S>, &Series<S>); K],
+    order: usize,
+    n: usize,
+) -> [S; K] {
+    let order = order.min(MAX_ORDER);
+    let mut sums = [S::number(0.0); K];
+    for i in n.saturating_sub(order)..=n.min(order) {
+        let j = (n - i).min(MAX_ORDER);
+        for k in 0..K {
+            sums[k] = sums[k] + pairs[k].0[i] * pairs[k].1[j];
+        }
+    }
+    sums
 }
 
 /// Coefficient `n` of the product of two polynomials given by all their coefficients (of any number).

@@ -7,7 +7,7 @@
 
 use crate::numerics::counts::Work;
 use crate::numerics::real::Real;
-use crate::numerics::taylor::flow::{Elements, Flow};
+use crate::numerics::taylor::flow::{Algebra, Elements, Flow};
 use crate::numerics::taylor::step::{ErrorNorm, Jet, StepPolicy, horner_increment};
 use std::ops::ControlFlow;
 
@@ -86,10 +86,10 @@ pub struct Compensated<S> {
     pub rest: S,
 }
 
-impl<S: Real> Compensated<S> {
+impl<S: Algebra> Compensated<S> {
     /// A value with nothing left out.
     pub fn new(value: S) -> Self {
-        Compensated { value, rest: S::ZERO }
+        Compensated { value, rest: S::number(0.0) }
     }
 
     /// Adds an increment: `value` becomes the rounded sum, `rest` the rounding error (Knuth's two-sum, exact).
@@ -123,6 +123,8 @@ pub struct Step<'a, S: Real, F: Flow<S>> {
     pub first: bool,
     /// Whether this is the last step of the span.
     pub last: bool,
+    /// The relative error asked for.
+    pub tolerance: f64,
     rest: &'a F::State<S>,
 }
 
@@ -227,7 +229,8 @@ pub fn integrate<S: Real, F: Flow<S>, O: Observer<S, F>>(
         work.steps += 1;
         work.flow_evaluations += order as u64;
         work.tangent_evaluations += (order * F::COLUMNS) as u64;
-        let step = Step { flow, jet: &jet, start: time, length, first: work.steps == 1, last, rest: &rest };
+        let (first, tolerance) = (work.steps == 1, policy.tolerance);
+        let step = Step { flow, jet: &jet, start: time, length, first, last, tolerance, rest: &rest };
         if observer.observe(&step, &mut work).is_break() {
             return Ok(Arrival { time: time.plus(S::ZERO), state, stopped: true, work });
         }

@@ -18,4 +18,5 @@ pub mod dense;
 pub mod events;
 pub mod flow;
 pub mod integrator;
+pub mod lanes;
 pub mod step;

@@ -19,7 +19,7 @@
 //! does not drown a unit vector beside it.
 
 use crate::numerics::real::Real;
-use crate::numerics::taylor::flow::{CAPACITY, Elements, Flow, MAX_ORDER, Series};
+use crate::numerics::taylor::flow::{Algebra, CAPACITY, Elements, Flow, MAX_ORDER, Series};
 
 /// Lowest order of a step: with less the estimate of the radius means nothing.
 pub const MIN_ORDER: usize = 5;
@@ -56,6 +56,8 @@ pub fn order_for(tolerance: f64) -> usize {
 /// What a requested error means for the steps: made once for an integration, the same for every lane that asks the same.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StepPolicy {
+    /// The relative error asked for, not below the scalar's ε.
+    pub tolerance: f64,
     /// Order `p` of the series.
     pub order: usize,
     /// `1/p` and `1/(p − 1)`.
@@ -73,7 +75,7 @@ impl StepPolicy {
         let term = (TERM_TO_TOLERANCE * asked * tightened).min(LARGEST_TERM);
         let roots = [1.0 / order as f64, 1.0 / (order - 1) as f64];
         let logarithm = libm::log2(term);
-        StepPolicy { order, roots, logarithms: roots.map(|root| logarithm * root) }
+        StepPolicy { tolerance: asked, order, roots, logarithms: roots.map(|root| logarithm * root) }
     }
 }
 
@@ -127,7 +129,7 @@ fn rough_exp2(x: f64) -> f64 {
 }
 
 /// The series of state and auxiliaries about the start of a step. Made once, and reused by every step.
-pub struct Jet<S: Real, F: Flow<S>> {
+pub struct Jet<S: Algebra, F: Flow<S>> {
     /// Series of the state, coefficients `0..=order`.
     pub state: F::State<Series<S>>,
     /// Series of the auxiliaries, coefficients `0..order`.
@@ -136,15 +138,15 @@ pub struct Jet<S: Real, F: Flow<S>> {
     reciprocals: Series<S>,
 }
 
-impl<S: Real, F: Flow<S>> Jet<S, F> {
+impl<S: Algebra, F: Flow<S>> Jet<S, F> {
     /// Room for series of this order.
     pub fn new(order: usize) -> Self {
         let order = order.clamp(MIN_ORDER, MAX_ORDER);
-        let mut reciprocals = [S::ONE; CAPACITY];
+        let mut reciprocals = [S::number(1.0); CAPACITY];
         for (n, reciprocal) in reciprocals.iter_mut().enumerate().skip(1) {
-            *reciprocal = S::ONE / S::from_f64(n as f64);
+            *reciprocal = S::number(1.0) / S::number(n as f64);
         }
-        let zero = [S::ZERO; CAPACITY];
+        let zero = [S::number(0.0); CAPACITY];
         Jet { state: Elements::filled(zero), auxiliary: Elements::filled(zero), order, reciprocals }
     }
 
@@ -169,31 +171,59 @@ impl<S: Real, F: Flow<S>> Jet<S, F> {
         }
     }
 
-    /// The step length by this policy, whose order must be the jet's (see [`step_length_from_norms`]).
-    pub fn step_length(&self, flow: &F, start: &F::State<S>, norm: ErrorNorm, policy: &StepPolicy) -> f64 {
+    /// The norms of the last two coefficients and a number that is zero where both are finite, else NaN.
+    #[inline(always)]
+    pub fn norms(&self, flow: &F, start: &F::State<S>, norm: ErrorNorm) -> Norms<S> {
         let components = match norm {
             ErrorNorm::WithColumns => <F::State<S> as Elements<S>>::LEN,
             ErrorNorm::BaseOnly => F::BASE_DIMENSION,
         };
         let scales = flow.scales(start);
         let p = self.order;
-        let (mut last, mut before) = (0.0_f64, 0.0_f64);
-        let mut finite = true;
+        let zero = S::number(0.0);
+        let mut norms = Norms { last: zero, before: zero, probe: zero };
         for i in 0..components {
             let series = self.state.get(i);
-            let scale = scales.get(i).to_f64();
-            let (a, b) = ((series[p].to_f64() / scale).abs(), (series[p - 1].to_f64() / scale).abs());
-            finite &= a.is_finite() && b.is_finite();
-            last = last.max(a);
-            before = before.max(b);
+            let scale = *scales.get(i);
+            let (a, b) = ((series[p] / scale).size(), (series[p - 1] / scale).size());
+            norms.probe = norms.probe + ((a - a) + (b - b));
+            norms.last = norms.last.larger(a);
+            norms.before = norms.before.larger(b);
         }
-        if finite { step_length_from_norms(policy, last, before) } else { f64::NAN }
+        norms
+    }
+}
+
+/// What the step length is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Norms<S> {
+    /// `‖x_p‖`.
+    pub last: S,
+    /// `‖x_{p−1}‖`.
+    pub before: S,
+    /// Zero where both are finite, else NaN.
+    pub probe: S,
+}
+
+impl Norms<f64> {
+    /// The step length by this policy (see [`step_length_from_norms`]).
+    #[inline(always)]
+    pub fn step_length(&self, policy: &StepPolicy) -> f64 {
+        step_length_from_norms(policy, self.last + self.probe, self.before + self.probe)
+    }
+}
+
+impl<S: Real, F: Flow<S>> Jet<S, F> {
+    /// The step length by this policy, whose order must be the jet's.
+    pub fn step_length(&self, flow: &F, start: &F::State<S>, norm: ErrorNorm, policy: &StepPolicy) -> f64 {
+        let Norms { last, before, probe } = self.norms(flow, start, norm);
+        Norms { last: last.to_f64(), before: before.to_f64(), probe: probe.to_f64() }.step_length(policy)
     }
 }
 
 /// The value at `offset` of a series cut after `order`.
 #[inline(always)]
-pub fn horner<S: Real>(series: &Series<S>, order: usize, offset: S) -> S {
+pub fn horner<S: Algebra>(series: &Series<S>, order: usize, offset: S) -> S {
     let mut sum = series[order];
     for n in (0..order).rev() {
         sum = sum * offset + series[n];
@@ -203,7 +233,7 @@ pub fn horner<S: Real>(series: &Series<S>, order: usize, offset: S) -> S {
 
 /// The change of a series over `offset`: its value without the constant term.
 #[inline(always)]
-pub fn horner_increment<S: Real>(series: &Series<S>, order: usize, offset: S) -> S {
+pub fn horner_increment<S: Algebra>(series: &Series<S>, order: usize, offset: S) -> S {
     let mut sum = series[order];
     for n in (1..order).rev() {
         sum = sum * offset + series[n];
@@ -213,11 +243,11 @@ pub fn horner_increment<S: Real>(series: &Series<S>, order: usize, offset: S) ->
 
 /// An upper bound of a series' absolute value on `[0, length]`: the sum of the absolute values of its terms.
 #[inline(always)]
-pub fn absolute_sum<S: Real>(series: &Series<S>, order: usize, length: S) -> S {
-    let mut sum = series[order].abs();
-    let length = length.abs();
+pub fn absolute_sum<S: Algebra>(series: &Series<S>, order: usize, length: S) -> S {
+    let mut sum = series[order].size();
+    let length = length.size();
     for n in (0..order).rev() {
-        sum = sum * length + series[n].abs();
+        sum = sum * length + series[n].size();
     }
     sum
 }
