@@ -51,6 +51,11 @@ pub fn visit_unit_interval_roots<S: Real>(
         return ControlFlow::Continue(());
     }
     let power = &coefficients[..count];
+    match look_first(power, noise) {
+        FirstLook::None => return ControlFlow::Continue(()),
+        FirstLook::Simple(root) => return visit(root),
+        FirstLook::Unclear => {}
+    }
     let bernstein = to_bernstein(power);
     // Every value met here is a sum of terms whose absolute values add up to at most this size.
     let size = power.iter().fold(S::ZERO, |sum, c| sum + c.abs());
@@ -58,6 +63,96 @@ pub fn visit_unit_interval_roots<S: Real>(
     let mut search = Search { power, count, noise, cluster: None, visit: &mut visit };
     search.descend(&bernstein, S::ZERO, S::ONE)?;
     search.close_cluster()
+}
+
+/// What partial sums of the coefficients tell.
+enum FirstLook<S> {
+    /// No root.
+    None,
+    /// One, and no other near it.
+    Simple(RootCluster<S>),
+    /// To be isolated.
+    Unclear,
+}
+
+/// Slopes below this many noises are looked at closely: a root may be one of several.
+const CLEAR_SLOPE: f64 = 1e6;
+
+/// The usual cases, without a Bernstein form. On `[0, 1]` a polynomial is a mean of the partial sums of its coefficients
+/// (Abel's summation), so it lies between the smallest and the largest of them; the same holds of its derivative. Where that
+/// has one sign, far from the noise, and the ends have opposite ones, there is one root, and Newton's method finds it.
+fn look_first<S: Real>(power: &[S], noise: S) -> FirstLook<S> {
+    let (mut sum, mut size) = (power[0], power[0].abs());
+    let (mut lowest, mut largest) = (sum, sum);
+    let mut slope = S::ZERO;
+    let (mut least_slope, mut largest_slope) = (S::from_f64(f64::INFINITY), S::from_f64(f64::NEG_INFINITY));
+    let mut degree = S::ZERO;
+    for &c in &power[1..] {
+        degree += S::ONE;
+        sum += c;
+        size += c.abs();
+        slope += degree * c;
+        (lowest, largest) = (lowest.min(sum), largest.max(sum));
+        (least_slope, largest_slope) = (least_slope.min(slope), largest_slope.max(slope));
+    }
+    let noise = noise + S::from_f64(4.0) * S::EPSILON * size;
+    if lowest > noise || largest < -noise {
+        return FirstLook::None;
+    }
+    let (first, last) = (sign(power[0], noise), sign(sum, noise));
+    let clear = S::from_f64(CLEAR_SLOPE) * noise;
+    if first * last >= 0 || !(least_slope > clear || largest_slope < -clear) {
+        return FirstLook::Unclear;
+    }
+    // The cubic with these values and slopes at both ends, then the polynomial itself.
+    let (two, three) = (S::from_f64(2.0), S::from_f64(3.0));
+    let (c1, rise) = (power[1], sum - power[0]);
+    let (c2, c3) = (three * rise - two * c1 - slope, c1 + slope - two * rise);
+    let mut root = -power[0] / rise;
+    for _ in 0..3 {
+        let value = power[0] + root * (c1 + root * (c2 + root * c3));
+        root = (root - value / (c1 + root * (two * c2 + root * three * c3))).max(S::ZERO).min(S::ONE);
+    }
+    if !(root >= S::ZERO && root <= S::ONE) {
+        return FirstLook::Unclear;
+    }
+    for _ in 0..MAX_FIRST_STEPS {
+        let (value, slope) = value_and_slope(power, root);
+        let next = root - value / slope;
+        if !(next >= S::ZERO && next <= S::ONE) {
+            return FirstLook::Unclear;
+        }
+        let moved = (next - root).abs();
+        root = next;
+        // The next step would be of the size of this one squared: below rounding.
+        if moved * moved * S::from_f64(64.0) <= S::EPSILON {
+            let blur = noise / slope.abs();
+            let (lower, upper) = ((root - blur).max(S::ZERO), (root + blur).min(S::ONE));
+            return FirstLook::Simple(RootCluster { lower, upper, root, multiplicity: 1 });
+        }
+    }
+    FirstLook::Unclear
+}
+
+/// Newton steps after which [`look_first`] leaves the root to bisection.
+const MAX_FIRST_STEPS: usize = 8;
+
+/// Value and slope, even and odd terms beside each other: half the way of Horner's scheme.
+fn value_and_slope<S: Real>(power: &[S], u: S) -> (S, S) {
+    let square = u * u;
+    let (mut even, mut odd, mut even_slope, mut odd_slope) = (S::ZERO, S::ZERO, S::ZERO, S::ZERO);
+    let mut pairs = power.rchunks_exact(2);
+    if power.len() % 2 == 1 {
+        // An even degree: its coefficient stands alone on top.
+        even = power[power.len() - 1];
+        pairs = power[..power.len() - 1].rchunks_exact(2);
+    }
+    for pair in pairs {
+        (even_slope, odd_slope) = (even_slope * square + even, odd_slope * square + odd);
+        (even, odd) = (even * square + pair[0], odd * square + pair[1]);
+    }
+    let two_u = u + u;
+    (even + u * odd, odd + two_u * (even_slope + u * odd_slope))
 }
 
 /// The roots of `Σ cₖ tᵏ` on `lower ≤ t ≤ upper`, in increasing order; `noise` as in [`visit_unit_interval_roots`].

@@ -1,10 +1,14 @@
 //! The Serret-Andoyer flow (9) and its conjugate times by integration: the second route beside the closed forms.
 //!
 //! Equation (9): with `ν(y) = A sin²y + B cos²y`, `x' = p_x ν`, `y' = p_y (C − ν)`, `p_x' = 0`,
-//! `p_y' = (B−A)(p_x² − p_y²) sin y cos y`. With `S = sin 2y` and `w = sin²y` as states it is polynomial:
+//! `p_y' = (B−A)(p_x² − p_y²) sin y cos y`. With the energy h (7) it is a pendulum: from
+//! `y'² = (C − ν)(2h − p_x² ν)` follows `y'' = ½ (B−A) [2h + p_x² (C − 2ν)] sin 2y`, so that with `z = y'`, `S = sin 2y`,
+//! `u = cos 2y` as states it is polynomial with three products:
 //!
-//! `C − ν = (C−B) + (B−A) w` (nothing cancels for B ≈ C), `w' = S y'`, `S' = 2 (1 − 2w) y'`,
-//! `p_y' = ½ (B−A)(p_x² − p_y²) S`.
+//! `y' = z`, `z' = (α + β u) S`, `S' = 2 u z`, `u' = −2 S z`, `α = ½ (B−A) [2h + p_x² (C−A−B)]`, `β = −½ (B−A)² p_x²`.
+//!
+//! Its variation with h fixed has two more: `δz' = (δα + δβ u) S + Q δy`, `Q = 2αu + 2β (2u² − 1)`,
+//! `δα = (B−A)(C−A−B) p_x δp_x`, `δβ = −(B−A)² p_x δp_x`.
 //!
 //! **Conjugate scalar.** H is homogeneous of degree 2 in p, so `p·δq` is constant along every variation that keeps H;
 //! started at a fixed point it is zero: `p_x δx + p_y δy = 0`. As `p_x` is a constant that is not zero, δq vanishes
@@ -24,75 +28,108 @@ use crate::numerics::taylor::flow::{
 };
 use crate::numerics::taylor::integrator::{IntegrationError, Settings, integrate};
 
-/// The flow (9) at a fixed `p_x`. State: `[x, y, p_y, S = sin 2y, w = sin²y]`.
+/// The flow (9) at a fixed `p_x` and energy. State: `[x, y, z = y', S = sin 2y, u = cos 2y]`.
 #[derive(Clone, Copy, Debug)]
 pub struct SerretAndoyerFlow<S> {
     /// A, B, C: the inverse moments of inertia.
     pub inverse_inertia: [S; 3],
     /// The conserved momentum.
     pub p_x: S,
+    /// `α` of the module page.
+    pub alpha: S,
+    /// `β` of the module page.
+    pub beta: S,
 }
 
 impl<S: Real> SerretAndoyerFlow<S> {
-    /// The state at `x = 0` and this y and p_y.
-    pub fn start(&self, y: S, p_y: S) -> [S; 5] {
+    /// The flow of the extremal that starts at this y with these momenta, and its state there, at `x = 0`.
+    pub fn new(inverse_inertia: [S; 3], y: S, p_x: S, p_y: S) -> (Self, [S; 5]) {
+        let [a, b, c] = inverse_inertia;
+        let (ba, half) = (b - a, S::from_f64(0.5));
         let (sine, cosine) = y.sin_cos();
-        [S::ZERO, y, p_y, (sine + sine) * cosine, sine * sine]
+        let z = p_y * ((c - b) + ba * (sine * sine));
+        // 2h + p_x² (C − A − B), as a sum of positive terms: 2h − A p_x² = p_x² (ν − A) + p_y².(C − ν).
+        let sum = p_x * p_x * (ba * (cosine * cosine)) + p_y * z + p_x * p_x * (c - b);
+        let (alpha, beta) = (half * ba * sum, -(half * ba * ba * (p_x * p_x)));
+        let state = [S::ZERO, y, z, (sine + sine) * cosine, (cosine - sine) * (cosine + sine)];
+        (Self { inverse_inertia, p_x, alpha, beta }, state)
     }
 
     /// `(x', y')` at a state.
     pub fn velocity(&self, state: &[S; 5]) -> (S, S) {
+        let [a, b, _] = self.inverse_inertia;
+        let [_, _, z, _, u] = *state;
+        (self.p_x * S::from_f64(0.5) * ((a + b) + (b - a) * u), z)
+    }
+
+    /// The momentum `p_y = z/(C − ν)` at a state.
+    pub fn momentum(&self, state: &[S; 5]) -> S {
+        state[2] / self.inverse_mass(state)
+    }
+
+    /// `C − ν` at a state.
+    fn inverse_mass(&self, state: &[S; 5]) -> S {
         let [a, b, c] = self.inverse_inertia;
-        let [_, _, p_y, _, w] = *state;
-        (self.p_x * (b - (b - a) * w), p_y * ((c - b) + (b - a) * w))
+        (c - b) + (b - a) * S::from_f64(0.5) * (S::ONE - state[4])
+    }
+
+    /// The column with its parameter δp_x that belongs to the variation `δp = (−y', x')` at a state (module page).
+    pub fn column(&self, state: &[S; 5]) -> ([S; 2], S) {
+        let (x_rate, y_rate) = self.velocity(state);
+        ([S::ZERO, self.inverse_mass(state) * x_rate], -y_rate)
     }
 
     /// The energy H of (7).
     pub fn energy(&self, state: &[S; 5]) -> S {
         let (x_rate, y_rate) = self.velocity(state);
-        (self.p_x * x_rate + state[2] * y_rate) * S::from_f64(0.5)
+        (self.p_x * x_rate + self.momentum(state) * y_rate) * S::from_f64(0.5)
+    }
+}
+
+impl<S: Algebra> SerretAndoyerFlow<S> {
+    /// A scale for y': `p_x (C − A)`, which it does not exceed while `|p_y| ≤ p_x`.
+    #[inline(always)]
+    fn rate(&self) -> S {
+        let [a, _, c] = self.inverse_inertia;
+        self.p_x * (c - a)
     }
 }
 
 impl<S: Algebra> Flow<S> for SerretAndoyerFlow<S> {
     type State<T: Copy> = [T; 5];
-    /// `[C − ν, y', p_x² − p_y²]`.
-    type Auxiliary<T: Copy> = [T; 3];
+    /// `[S u]`.
+    type Auxiliary<T: Copy> = [T; 1];
 
     #[inline(always)]
-    fn coefficients(&self, n: usize, state: &[Series<S>; 5], auxiliary: &mut [Series<S>; 3]) -> [S; 5] {
-        let [a, b, c] = self.inverse_inertia;
-        let [_, _, p_y, sine, w] = state;
-        let constant = |value: S| if n == 0 { value } else { S::number(0.0) };
-        let half = S::number(0.5);
-        auxiliary[0][n] = constant(c - b) + (b - a) * w[n];
-        let [rate, square] = convolve_each([(p_y, &auxiliary[0]), (p_y, p_y)], n);
-        auxiliary[1][n] = rate;
-        auxiliary[2][n] = constant(self.p_x * self.p_x) - square;
-        let y_rate = &auxiliary[1];
-        let [force, w_rate, sine_rate] = convolve_each([(&auxiliary[2], sine), (w, y_rate), (sine, y_rate)], n);
+    fn coefficients(&self, n: usize, state: &[Series<S>; 5], auxiliary: &mut [Series<S>; 1]) -> [S; 5] {
+        let [a, b, _] = self.inverse_inertia;
+        let [_, _, z, sine, u] = state;
+        let [uz, sz, su] = convolve_each([(u, z), (sine, z), (sine, u)], n);
+        auxiliary[0][n] = su;
+        let half_x = self.p_x * S::number(0.5);
+        let x_rate = half_x * ((b - a) * u[n]);
         [
-            self.p_x * (constant(b) - (b - a) * w[n]),
-            rate,
-            (b - a) * half * force,
-            (rate - w_rate * S::number(2.0)) * S::number(2.0),
-            sine_rate,
+            if n == 0 { x_rate + half_x * (a + b) } else { x_rate },
+            z[n],
+            self.alpha * sine[n] + self.beta * su,
+            uz + uz,
+            -(sz + sz),
         ]
     }
 
     #[inline(always)]
     fn scales(&self, state: &[S; 5]) -> [S; 5] {
         let one = S::number(1.0);
-        [one.larger(state[0].size()), one.larger(state[1].size()), self.p_x.size(), one, one]
+        [one.larger(state[0].size()), one.larger(state[1].size()), self.rate(), one, one]
     }
 }
 
 impl<S: Algebra> Tangent<S> for SerretAndoyerFlow<S> {
-    /// `[δy, δp_y]`.
+    /// `[δy, δz]`.
     type Column<T: Copy> = [T; 2];
-    /// `[p_y S, p_y δp_y, (p_x² − p_y²) δy]`.
-    type ColumnAuxiliary<T: Copy> = [T; 3];
-    /// δp_x, which is constant.
+    /// `[Q]`.
+    type ColumnAuxiliary<T: Copy> = [T; 1];
+    /// δp_x, which is constant; the energy is kept.
     type ColumnParameter = S;
 
     #[inline(always)]
@@ -100,29 +137,31 @@ impl<S: Algebra> Tangent<S> for SerretAndoyerFlow<S> {
         &self,
         n: usize,
         delta_p_x: &S,
-        (state, auxiliary): (&[Series<S>; 5], &[Series<S>; 3]),
+        (state, auxiliary): (&[Series<S>; 5], &[Series<S>; 1]),
         column: &[Series<S>; 2],
-        own: &mut [Series<S>; 3],
+        own: &mut [Series<S>; 1],
     ) -> [S; 2] {
-        let [a, b, _] = self.inverse_inertia;
-        let [_, _, p_y, sine, w] = state;
-        let [delta_y, delta_p_y] = column;
-        let pairs = [(p_y, sine), (p_y, delta_p_y), (&auxiliary[2], delta_y), (&auxiliary[0], delta_p_y)];
-        let [p_sine, p_delta, kinetic, by_momentum] = convolve_each(pairs, n);
-        (own[0][n], own[1][n], own[2][n]) = (p_sine, p_delta, kinetic);
-        let [turned, curved, by_position] = convolve_each([(&own[1], sine), (&own[2], w), (&own[0], delta_y)], n);
-        // δ(½(p_x² − p_y²) sin 2y) = (p_x δp_x − p_y δp_y) S + (p_x² − p_y²)(1 − 2w) δy.
-        let direction = self.p_x * *delta_p_x * sine[n] - turned;
-        let position = kinetic - curved * S::number(2.0);
-        [by_momentum + (b - a) * by_position, (b - a) * (direction + position)]
+        let [a, b, c] = self.inverse_inertia;
+        let [_, _, _, sine, u] = state;
+        let [delta_y, delta_z] = column;
+        let two = S::number(2.0);
+        own[0][n] = S::number(0.0);
+        let [square, turned] = convolve_each([(u, u), (&own[0], delta_y)], n);
+        let (twice_alpha, twice_beta) = (self.alpha * two, self.beta * two);
+        let q = twice_alpha * u[n] + twice_beta * (square + square);
+        own[0][n] = if n == 0 { q - twice_beta } else { q };
+        let common = (b - a) * (self.p_x * *delta_p_x);
+        let (delta_alpha, delta_beta) = (common * ((c - b) - a), -(common * (b - a)));
+        let forced = delta_alpha * sine[n] + delta_beta * auxiliary[0][n];
+        [delta_z[n], forced + (turned + own[0][n] * delta_y[0])]
     }
 
     #[inline(always)]
-    fn column_scales(&self, state: &[S; 5], column: &[S; 2]) -> [S; 2] {
-        // δy and δp_y differ in unit by p_x (an angle against a momentum): one size in each unit.
-        let p = largest(&[self.p_x, state[2]]);
-        let size = largest(&[column[0] * p, column[1]]);
-        [size / p, size]
+    fn column_scales(&self, _: &[S; 5], column: &[S; 2]) -> [S; 2] {
+        // δy and δy' differ in unit by a rate: one size in each unit.
+        let rate = self.rate();
+        let size = largest(&[column[0] * rate, column[1]]);
+        [size / rate, size]
     }
 }
 
@@ -167,7 +206,13 @@ pub enum FlowError {
     Integration(#[from] IntegrationError),
 }
 
-pub(super) fn posed<S: Real>(a: S, b: S, c: S, y0: S, p_x: S, p_y: S) -> Result<SerretAndoyerFlow<S>, FlowError> {
+/// The flow and its state at the start, for checked inputs.
+pub(super) fn posed<S: Real>(
+    [a, b, c]: [S; 3],
+    y0: S,
+    p_x: S,
+    p_y: S,
+) -> Result<(SerretAndoyerFlow<S>, [S; 5]), FlowError> {
     let positive = "must be finite and positive";
     let check = |name, value: S, accepted, good: bool| {
         let good = good && value.is_finite();
@@ -179,7 +224,7 @@ pub(super) fn posed<S: Real>(a: S, b: S, c: S, y0: S, p_x: S, p_y: S) -> Result<
     check("y0", y0, "must be finite", true)?;
     check("p_x", p_x, positive, p_x > S::ZERO)?;
     check("p_y", p_y, "must be finite, and |p_y| ≤ p_x", p_y.abs() <= p_x)?;
-    Ok(SerretAndoyerFlow { inverse_inertia: [a, b, c], p_x })
+    Ok(SerretAndoyerFlow::new([a, b, c], y0, p_x, p_y))
 }
 
 /// The first conjugate time `armed_after < t ≤ t_max` along the extremal of (9) from `(0, y0)` with momentum
@@ -204,11 +249,10 @@ pub fn first_conjugate_time_by_integration<S: Real>(
     t_max: S,
     tolerance: f64,
 ) -> Result<IntegratedConjugate<S>, FlowError> {
-    let flow = posed(a, b, c, y0, p_x, p_y)?;
-    let base = flow.start(y0, p_y);
-    let (x_rate, y_rate) = flow.velocity(&base);
-    let system = WithColumns { flow, parameters: [-y_rate] };
-    let start = Joined { base, columns: Columns([[S::ZERO, x_rate]]) };
+    let (flow, base) = posed([a, b, c], y0, p_x, p_y)?;
+    let (column, parameter) = flow.column(&base);
+    let system = WithColumns { flow, parameters: [parameter] };
+    let start = Joined { base, columns: Columns([column]) };
     let mut events = Events::first(1, Component(5)).vanishing_at_start(1).armed_after(armed_after);
     let arrival = integrate(&system, &start, (S::ZERO, t_max), &Settings::new(tolerance), &mut events)?;
     let Some(root) = events.found.first() else { return Err(FlowError::NoneBefore { t_max: t_max.to_f64() }) };
@@ -233,9 +277,9 @@ pub fn trajectory<S: Real>(
     times: &[S],
     tolerance: f64,
 ) -> Result<(Vec<[S; 3]>, Work), FlowError> {
-    let flow = posed(a, b, c, y0, p_x, p_y)?;
-    let (states, work) = sample(&flow, &flow.start(y0, p_y), S::ZERO, times, &Settings::new(tolerance))?;
-    Ok((states.into_iter().map(|[x, y, p_y, ..]| [x, y, p_y]).collect(), work))
+    let (flow, start) = posed([a, b, c], y0, p_x, p_y)?;
+    let (states, work) = sample(&flow, &start, S::ZERO, times, &Settings::new(tolerance))?;
+    Ok((states.into_iter().map(|state| [state[0], state[1], flow.momentum(&state)]).collect(), work))
 }
 
 #[cfg(test)]

@@ -50,7 +50,7 @@ impl LaneWork for Integrate<'_> {
         let Self { starts, tolerance, t_max } = self;
         let outcomes = starts.iter().map(|_| Err(FlowError::NoneBefore { t_max })).collect();
         let mut queue = Queue { starts, t_max, next: 0, loaded: [0; 8], outcomes };
-        let flow = SerretAndoyerFlow { inverse_inertia: [P::ONE; 3], p_x: P::ONE };
+        let flow = SerretAndoyerFlow { inverse_inertia: [P::ONE; 3], p_x: P::ONE, alpha: P::ONE, beta: P::ONE };
         let system = WithColumns { flow, parameters: [P::ZERO] };
         integrate_lanes(system, &FirstZero(Component(5)), 1, &Settings::new(tolerance), &mut queue);
         queue.outcomes
@@ -73,23 +73,23 @@ impl<P: Pack<Scalar = f64>> Starts<P, System<P>> for Queue<'_> {
         while let Some(start) = self.starts.get(self.next) {
             let index = self.next;
             self.next += 1;
-            let [a, b, c] = start.inverse_inertia;
-            match posed(a, b, c, start.y0, start.p_x, start.p_y) {
+            match posed(start.inverse_inertia, start.y0, start.p_x, start.p_y) {
                 Err(refused) => self.outcomes[index] = Err(refused),
-                Ok(flow) => {
+                Ok((flow, base)) => {
                     self.loaded[lane] = index;
-                    let base = flow.start(start.y0, start.p_y);
-                    let (x_rate, y_rate) = flow.velocity(&base);
+                    let (column, parameter) = flow.column(&base);
                     let set = |member: &mut P, value: f64| *member = member.with_lane(lane, value);
                     for (member, value) in system.flow.inverse_inertia.iter_mut().zip(flow.inverse_inertia) {
                         set(member, value);
                     }
                     set(&mut system.flow.p_x, flow.p_x);
-                    set(&mut system.parameters[0], -y_rate);
+                    set(&mut system.flow.alpha, flow.alpha);
+                    set(&mut system.flow.beta, flow.beta);
+                    set(&mut system.parameters[0], parameter);
                     for (member, value) in state.base.iter_mut().zip(base) {
                         set(member, value);
                     }
-                    for (member, value) in state.columns.0[0].iter_mut().zip([0.0, x_rate]) {
+                    for (member, value) in state.columns.0[0].iter_mut().zip(column) {
                         set(member, value);
                     }
                     return Some(self.t_max);

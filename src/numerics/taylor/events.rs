@@ -212,7 +212,7 @@ impl<P: Pack> Expansion<P> {
         let magnitude = function.magnitude(jet, length);
         let unit = P::EPSILON * magnitude;
         let mut noise = unit * P::from_f64(NOISE_IN_EPSILONS);
-        let negligible = (P::EPSILON * P::from_f64(0.25)).max(P::from_f64(tolerance * LEFT_OUT)) * magnitude;
+        let negligible = P::EPSILON.max(P::from_f64(tolerance * LEFT_OUT)) * magnitude;
         let highest = (E::DEGREE * order).min(MAX_COEFFICIENTS - 1);
         let (mut first, mut last, mut power) = (0, order.min(highest), P::ONE);
         self.lowest = last;
@@ -245,24 +245,41 @@ impl<P: Pack> Expansion<P> {
         }
     }
 
-    /// Where the constant term does not outweigh all others, and the noise: elsewhere there is no zero on the step. For
-    /// the members whose step is the first, `vanishing_order` coefficients are left out.
+    /// Where there may be a zero on the step; elsewhere there is none. For the members whose step is the first,
+    /// `vanishing_order` coefficients are left out.
+    ///
+    /// On `[0, 1]` a polynomial is a mean of the partial sums of its coefficients (Abel's summation: the weights `uⁿ − uⁿ⁺¹`
+    /// are not negative and add up to 1), so there is no zero where all of them have one sign beyond the noise.
     #[inline(always)]
     pub(super) fn may_vanish(&self, first: P::Mask, vanishing_order: usize, noise: P) -> P::Mask {
-        let mut rest = noise;
-        for n in 1..=self.highest {
-            let mut counts = if n > self.lowest {
-                P::Mask::from_lanes(|member| n <= self.last[member])
-            } else {
-                P::Mask::splat(true)
-            };
-            if n <= vanishing_order {
-                counts = counts.and(first.not());
+        let mut sum = P::select(first, P::ZERO, self.scaled[0]);
+        let (mut lowest, mut largest) = (sum, sum);
+        if first.any() {
+            // Members whose step is the first begin later.
+            for n in 1..=vanishing_order {
+                sum = sum + P::select(first, P::ZERO, self.scaled[n]);
+                (lowest, largest) = (lowest.min(sum), largest.max(sum));
             }
-            let size = self.scaled[n].abs();
-            rest = P::select(counts, rest + size, rest);
+            let begun = sum + self.scaled[vanishing_order];
+            sum = P::select(first, begun, sum);
+            lowest = P::select(first, sum, lowest);
+            largest = P::select(first, sum, largest);
+        } else {
+            for n in 1..=vanishing_order {
+                sum = sum + self.scaled[n];
+                (lowest, largest) = (lowest.min(sum), largest.max(sum));
+            }
         }
-        P::select(first, self.scaled[vanishing_order], self.scaled[0]).abs().at_most(rest)
+        for n in vanishing_order + 1..=self.highest {
+            if n > self.lowest {
+                let counts = P::Mask::from_lanes(|member| n <= self.last[member]);
+                sum = P::select(counts, sum + self.scaled[n], sum);
+            } else {
+                sum = sum + self.scaled[n];
+            }
+            (lowest, largest) = (lowest.min(sum), largest.max(sum));
+        }
+        lowest.more(noise).or(largest.less(-noise)).not()
     }
 }
 

@@ -280,17 +280,25 @@ fn reversed_dot<S: Algebra>(a: &[S], b: &[S]) -> S {
 #[inline(always)]
 pub fn convolve_each<S: Algebra, const K: usize>(pairs: [(&Series<S>, &Series<S>); K], n: usize) -> [S; K] {
     let n = n.min(MAX_ORDER);
-    let mut sums = [S::number(0.0); K];
-    for k in 0..K {
-        sums[k] = pairs[k].0[0] * pairs[k].1[n];
-    }
-    for i in 1..=n {
+    let (mut even, mut odd) = ([S::number(0.0); K], [S::number(0.0); K]);
+    let mut i = 0;
+    while i < n {
         let j = (n - i).min(MAX_ORDER);
         for k in 0..K {
-            sums[k] = sums[k] + pairs[k].0[i] * pairs[k].1[j];
+            even[k] = even[k] + pairs[k].0[i] * pairs[k].1[j];
+            odd[k] = odd[k] + pairs[k].0[i + 1] * pairs[k].1[j - 1];
+        }
+        i += 2;
+    }
+    if i == n {
+        for k in 0..K {
+            even[k] = even[k] + pairs[k].0[n] * pairs[k].1[0];
         }
     }
-    sums
+    for k in 0..K {
+        even[k] = even[k] + odd[k];
+    }
+    even
 }
 
 /// Coefficient `n`, which may be beyond the order, of several products of polynomials of this order.

@@ -184,8 +184,8 @@ impl<S: Algebra, F: Flow<S>> Jet<S, F> {
         let mut norms = Norms { last: zero, before: zero, probe: zero };
         for i in 0..components {
             let series = self.state.get(i);
-            let scale = *scales.get(i);
-            let (a, b) = ((series[p] / scale).size(), (series[p - 1] / scale).size());
+            let inverse = S::number(1.0) / *scales.get(i);
+            let (a, b) = ((series[p] * inverse).size(), (series[p - 1] * inverse).size());
             norms.probe = norms.probe + ((a - a) + (b - b));
             norms.last = norms.last.larger(a);
             norms.before = norms.before.larger(b);
