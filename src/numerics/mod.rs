@@ -8,5 +8,6 @@ pub mod pack;
 pub mod polynomial_roots;
 pub mod real;
 pub mod roots;
+pub mod rough;
 pub mod taylor;
 pub mod ulp;

@@ -9,6 +9,7 @@
 //! ([`crate::numerics::lanes`]).
 
 use crate::numerics::real::Real;
+use crate::numerics::rough::{rough_exp2, rough_log2};
 use crate::numerics::taylor::flow::Algebra;
 use std::fmt::Debug;
 use std::ops::{AddAssign, DivAssign, MulAssign, SubAssign};
@@ -147,6 +148,16 @@ pub trait Pack: Algebra + Debug + AddAssign + SubAssign + MulAssign + DivAssign 
     #[inline(always)]
     fn squared(self) -> Self {
         self * self
+    }
+    /// [`crate::numerics::rough::rough_log2`] of each member.
+    #[inline(always)]
+    fn rough_log2(self) -> Self {
+        self.map(|x| <Self::Scalar as Real>::from_f64(rough_log2(Real::to_f64(x))))
+    }
+    /// [`crate::numerics::rough::rough_exp2`] of each member.
+    #[inline(always)]
+    fn rough_exp2(self) -> Self {
+        self.map(|x| <Self::Scalar as Real>::from_f64(rough_exp2(Real::to_f64(x))))
     }
     /// Sine and cosine.
     #[inline(always)]

@@ -8,7 +8,7 @@ use crate::numerics::pack::Pack;
 use crate::numerics::taylor::events::Component;
 use crate::numerics::taylor::flow::{Columns, Joined, WithColumns};
 use crate::numerics::taylor::integrator::{IntegrationError, Settings};
-use crate::numerics::taylor::lanes::{FirstZero, LaneArrival, Starts, integrate_lanes};
+use crate::numerics::taylor::lanes::{FirstZero, LaneArrival, Slice, integrate_lanes, set_lane};
 
 type System<S> = WithColumns<SerretAndoyerFlow<S>, S, 1>;
 type State<T> = Joined<[T; 5], Columns<[T; 2], 1>>;
@@ -48,66 +48,29 @@ impl LaneWork for Integrate<'_> {
     #[inline(always)]
     fn run<P: Pack<Scalar = f64>>(self) -> Vec<Outcome> {
         let Self { starts, tolerance, t_max } = self;
-        let outcomes = starts.iter().map(|_| Err(FlowError::NoneBefore { t_max })).collect();
-        let mut queue = Queue { starts, t_max, next: 0, loaded: [0; 8], outcomes };
+        let load = |start: &FlowStart, lane: usize, system: &mut System<P>, state: &mut State<P>| {
+            let (flow, base) = posed(start.inverse_inertia, start.y0, start.p_x, start.p_y).map_err(Err)?;
+            let (column, parameter) = flow.column(&base);
+            let of = &mut system.flow;
+            set_lane(lane, &mut of.inverse_inertia, &flow.inverse_inertia);
+            for (member, value) in [(&mut of.p_x, flow.p_x), (&mut of.alpha, flow.alpha), (&mut of.beta, flow.beta)] {
+                *member = member.with_lane(lane, value);
+            }
+            set_lane(lane, &mut system.parameters, &[parameter]);
+            set_lane(lane, &mut state.base, &base);
+            set_lane(lane, &mut state.columns.0[0], &column);
+            Ok(t_max)
+        };
+        let done = |_: &FlowStart, result: Result<LaneArrival<State<f64>>, IntegrationError>| {
+            let LaneArrival { time: t1, state, event, work } = result?;
+            let (blur, _) = event.ok_or(FlowError::NoneBefore { t_max })?;
+            let [x, y, ..] = state.base;
+            Ok(IntegratedConjugate { t1, x, y, blur, steps: work.steps, work })
+        };
+        let mut queue = Slice::new(starts, load, done);
         let flow = SerretAndoyerFlow { inverse_inertia: [P::ONE; 3], p_x: P::ONE, alpha: P::ONE, beta: P::ONE };
         let system = WithColumns { flow, parameters: [P::ZERO] };
         integrate_lanes(system, &FirstZero(Component(5)), 1, &Settings::new(tolerance), &mut queue);
-        queue.outcomes
-    }
-}
-
-/// The starts that are left, and what became of the others.
-struct Queue<'a> {
-    starts: &'a [FlowStart],
-    t_max: f64,
-    next: usize,
-    /// Which start each lane has.
-    loaded: [usize; 8],
-    outcomes: Vec<Outcome>,
-}
-
-impl<P: Pack<Scalar = f64>> Starts<P, System<P>> for Queue<'_> {
-    #[inline(always)]
-    fn load(&mut self, lane: usize, system: &mut System<P>, state: &mut State<P>) -> Option<f64> {
-        while let Some(start) = self.starts.get(self.next) {
-            let index = self.next;
-            self.next += 1;
-            match posed(start.inverse_inertia, start.y0, start.p_x, start.p_y) {
-                Err(refused) => self.outcomes[index] = Err(refused),
-                Ok((flow, base)) => {
-                    self.loaded[lane] = index;
-                    let (column, parameter) = flow.column(&base);
-                    let set = |member: &mut P, value: f64| *member = member.with_lane(lane, value);
-                    for (member, value) in system.flow.inverse_inertia.iter_mut().zip(flow.inverse_inertia) {
-                        set(member, value);
-                    }
-                    set(&mut system.flow.p_x, flow.p_x);
-                    set(&mut system.flow.alpha, flow.alpha);
-                    set(&mut system.flow.beta, flow.beta);
-                    set(&mut system.parameters[0], parameter);
-                    for (member, value) in state.base.iter_mut().zip(base) {
-                        set(member, value);
-                    }
-                    for (member, value) in state.columns.0[0].iter_mut().zip(column) {
-                        set(member, value);
-                    }
-                    return Some(self.t_max);
-                }
-            }
-        }
-        None
-    }
-
-    fn finish(&mut self, lane: usize, result: Result<LaneArrival<State<f64>>, IntegrationError>) {
-        let t_max = self.t_max;
-        self.outcomes[self.loaded[lane]] = match result {
-            Err(error) => Err(FlowError::Integration(error)),
-            Ok(LaneArrival { event: None, .. }) => Err(FlowError::NoneBefore { t_max }),
-            Ok(LaneArrival { time: t1, state, event: Some((blur, _)), work }) => {
-                let [x, y, ..] = state.base;
-                Ok(IntegratedConjugate { t1, x, y, blur, steps: work.steps, work })
-            }
-        };
+        queue.outcomes()
     }
 }

@@ -28,6 +28,9 @@ use crate::numerics::taylor::step::{Jet, absolute_sum};
 /// The smallest scale of `(h1, h2)`: below it they don't matter to anything up to times of `70/√(1/k² − 1)`.
 const SMALLEST_SCALE: f64 = 1e-30;
 
+/// The order to which J vanishes at the start.
+pub(super) const VANISHING_ORDER: usize = 3;
+
 /// The lifted flow. State: `[r1, r2, r3, h1, h2, h3]`.
 #[derive(Clone, Copy, Debug)]
 pub struct SpinLift<S> {
@@ -226,7 +229,7 @@ pub fn conjugate_times_by_integration<S: Real>(
     let (flow, base) = posed(k, p_theta)?;
     let system = WithColumns { flow, parameters: [()] };
     let start: LiftedState<S> = Joined { base, columns: Columns([[S::ZERO, -S::ONE, S::ZERO]]) };
-    let mut events = Events::first(wanted, ConjugateScalar).vanishing_at_start(3);
+    let mut events = Events::first(wanted, ConjugateScalar).vanishing_at_start(VANISHING_ORDER);
     let arrival = integrate(&system, &start, (S::ZERO, t_max), &Settings::new(tolerance), &mut events)?;
     let point = |root: &EventRoot<S, LiftedState<S>>| {
         let [r1, r2, r3, h1, h2, h3] = root.state.base;

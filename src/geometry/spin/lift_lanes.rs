@@ -2,16 +2,15 @@
 //!
 //! Result for result the bits of [`super::lift::first_conjugate_time_by_integration`].
 
-use super::lift::{ConjugateScalar, IntegratedConjugate, LiftError, Lifted, LiftedState, SpinLift, posed};
+use super::lift::{
+    ConjugateScalar, IntegratedConjugate, LiftError, Lifted, LiftedState, SpinLift, VANISHING_ORDER, posed,
+};
 use crate::numerics::counts::Work;
 use crate::numerics::lanes::dispatch::{LaneWork, dispatch};
 use crate::numerics::pack::Pack;
-use crate::numerics::taylor::flow::{Columns, Joined, WithColumns};
+use crate::numerics::taylor::flow::WithColumns;
 use crate::numerics::taylor::integrator::{IntegrationError, Settings};
-use crate::numerics::taylor::lanes::{FirstZero, LaneArrival, Starts, integrate_lanes};
-
-/// The order to which J vanishes at the start (see [`super::lift`]).
-const VANISHING_ORDER: usize = 3;
+use crate::numerics::taylor::lanes::{FirstZero, LaneArrival, Slice, integrate_lanes, set_lane};
 
 /// The outcome for one start.
 pub type Outcome = Result<(IntegratedConjugate<f64>, Work), LiftError>;
@@ -35,60 +34,23 @@ impl LaneWork for Integrate<'_> {
     #[inline(always)]
     fn run<P: Pack<Scalar = f64>>(self) -> Vec<Outcome> {
         let Self { starts, tolerance, t_max } = self;
-        let outcomes = starts.iter().map(|_| Err(LiftError::NoneBefore { t_max })).collect();
-        let mut queue = Queue { starts, t_max, next: 0, loaded: [0; 8], outcomes };
+        let load = |&(k, p_theta): &(f64, f64), lane: usize, flow: &mut Lifted<P>, state: &mut LiftedState<P>| {
+            let (one, base) = posed(k, p_theta).map_err(Err)?;
+            set_lane(lane, std::slice::from_mut(&mut flow.flow.half_inverse_k_squared), &[one.half_inverse_k_squared]);
+            set_lane(lane, &mut state.base, &base);
+            set_lane(lane, &mut state.columns.0[0], &[0.0, -1.0, 0.0]);
+            Ok(t_max)
+        };
+        let done = |_: &(f64, f64), result: Result<LaneArrival<LiftedState<f64>>, IntegrationError>| {
+            let LaneArrival { time: t1, state, event, work } = result?;
+            let (blur, multiplicity) = event.ok_or(LiftError::NoneBefore { t_max })?;
+            let [r1, r2, r3, h1, h2, h3] = state.base;
+            Ok((IntegratedConjugate { t1, r: [r1, r2, r3], h: [h1, h2, h3], blur, multiplicity }, work))
+        };
+        let mut queue = Slice::new(starts, load, done);
         let flow = WithColumns { flow: SpinLift { half_inverse_k_squared: P::ONE }, parameters: [()] };
         let settings = Settings::new(tolerance);
         integrate_lanes(flow, &FirstZero(ConjugateScalar), VANISHING_ORDER, &settings, &mut queue);
-        queue.outcomes
-    }
-}
-
-/// The starts that are left, and what became of the others.
-struct Queue<'a> {
-    starts: &'a [(f64, f64)],
-    t_max: f64,
-    next: usize,
-    /// Which start each lane has.
-    loaded: [usize; 8],
-    outcomes: Vec<Outcome>,
-}
-
-impl<P: Pack<Scalar = f64>> Starts<P, Lifted<P>> for Queue<'_> {
-    #[inline(always)]
-    fn load(&mut self, lane: usize, flow: &mut Lifted<P>, state: &mut LiftedState<P>) -> Option<f64> {
-        while let Some(&(k, p_theta)) = self.starts.get(self.next) {
-            let index = self.next;
-            self.next += 1;
-            match posed(k, p_theta) {
-                Err(refused) => self.outcomes[index] = Err(refused),
-                Ok((one, base)) => {
-                    self.loaded[lane] = index;
-                    let number = &mut flow.flow.half_inverse_k_squared;
-                    *number = number.with_lane(lane, one.half_inverse_k_squared);
-                    let start: LiftedState<f64> = Joined { base, columns: Columns([[0.0, -1.0, 0.0]]) };
-                    for (member, value) in state.base.iter_mut().zip(start.base) {
-                        *member = member.with_lane(lane, value);
-                    }
-                    for (member, value) in state.columns.0[0].iter_mut().zip(start.columns.0[0]) {
-                        *member = member.with_lane(lane, value);
-                    }
-                    return Some(self.t_max);
-                }
-            }
-        }
-        None
-    }
-
-    fn finish(&mut self, lane: usize, result: Result<LaneArrival<LiftedState<f64>>, IntegrationError>) {
-        let t_max = self.t_max;
-        self.outcomes[self.loaded[lane]] = match result {
-            Err(error) => Err(LiftError::Integration(error)),
-            Ok(LaneArrival { event: None, .. }) => Err(LiftError::NoneBefore { t_max }),
-            Ok(LaneArrival { time: t1, state, event: Some((blur, multiplicity)), work }) => {
-                let [r1, r2, r3, h1, h2, h3] = state.base;
-                Ok((IntegratedConjugate { t1, r: [r1, r2, r3], h: [h1, h2, h3], blur, multiplicity }, work))
-            }
-        };
+        queue.outcomes()
     }
 }

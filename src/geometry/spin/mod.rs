@@ -28,6 +28,7 @@ pub mod landen;
 pub mod lift;
 pub mod lift_lanes;
 pub mod limits;
+pub mod pendulum;
 pub mod phase;
 pub mod self_intersection;
 pub mod solve;

@@ -9,6 +9,9 @@
 #![expect(unsafe_code, reason = "instructions chosen at run time; the measurement is in the module page")]
 
 use crate::numerics::pack::{Mask, Pack};
+use crate::numerics::rough::{
+    EXP2_BEND, EXPONENT_BIAS, LARGEST_EXPONENT, LOG2_BEND, MANTISSA, MANTISSA_WIDTH, ONE_BITS,
+};
 use crate::numerics::taylor::flow::Algebra;
 use std::arch::x86_64::*;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
@@ -193,5 +196,31 @@ impl Pack for Avx512 {
     fn smaller(self, other: Self) -> Self {
         // SAFETY: as above. `VMINPD` is `if a < b { a } else { b }`.
         Self(unsafe { _mm512_min_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn rough_log2(self) -> Self {
+        // SAFETY: as above. The operations of `rough::rough_log2`, in its order.
+        let (exponent, mantissa) = unsafe {
+            let bits = _mm512_castpd_si512(self.0);
+            let exponent = _mm512_cvtepi64_pd(_mm512_srli_epi64::<MANTISSA_WIDTH>(bits));
+            let mantissa = _mm512_and_si512(bits, _mm512_set1_epi64(MANTISSA as i64));
+            let mantissa = _mm512_or_si512(mantissa, _mm512_set1_epi64(ONE_BITS as i64));
+            (Self(exponent), Self(_mm512_castsi512_pd(mantissa)))
+        };
+        let beyond = mantissa - Self::ONE;
+        let exponent = exponent - Self::number(f64::from(EXPONENT_BIAS));
+        exponent + beyond + Self::number(LOG2_BEND) * beyond * (Self::ONE - beyond)
+    }
+    #[inline(always)]
+    fn rough_exp2(self) -> Self {
+        let shifted = self + Self::number(f64::from(EXPONENT_BIAS));
+        let shifted = Self::number(LARGEST_EXPONENT).smaller(Self::ONE.larger(shifted));
+        // SAFETY: as above. The operations of `rough::rough_exp2`, in its order; NaN stays NaN by `beyond`.
+        let (whole, power) = unsafe {
+            let whole = _mm512_cvttpd_epi64(shifted.0);
+            (Self(_mm512_cvtepi64_pd(whole)), Self(_mm512_castsi512_pd(_mm512_slli_epi64::<MANTISSA_WIDTH>(whole))))
+        };
+        let beyond = shifted - whole;
+        power * (Self::ONE + beyond - Self::number(EXP2_BEND) * beyond * (Self::ONE - beyond))
     }
 }

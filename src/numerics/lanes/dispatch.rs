@@ -10,6 +10,7 @@
 use super::avx512::Avx512;
 use super::portable::Portable;
 use crate::numerics::pack::Pack;
+use std::cell::Cell;
 use std::sync::OnceLock;
 
 /// The environment variable that forces a path.
@@ -104,11 +105,25 @@ pub fn from_environment() -> Result<Instructions, SimdError> {
     }
 }
 
-/// The path that [`dispatch`] takes: that of the environment as it was first asked; where it can't be followed (the command
-/// refuses it at its start), the widest.
+/// The path that [`dispatch`] takes: that of [`with_instructions`] inside it, else that of the environment as it was first
+/// asked; where that can't be followed (the command refuses it at its start), the widest.
 pub fn chosen() -> Instructions {
     static CHOSEN: OnceLock<Instructions> = OnceLock::new();
-    *CHOSEN.get_or_init(|| from_environment().unwrap_or_else(|_| Instructions::widest()))
+    FORCED
+        .get()
+        .unwrap_or_else(|| *CHOSEN.get_or_init(|| from_environment().unwrap_or_else(|_| Instructions::widest())))
+}
+
+thread_local! {
+    static FORCED: Cell<Option<Instructions>> = const { Cell::new(None) };
+}
+
+/// Runs a function whose lanes, on this thread, are carried out by these instructions: for comparing paths.
+pub fn with_instructions<T>(instructions: Instructions, function: impl FnOnce() -> T) -> T {
+    let before = FORCED.replace(Some(instructions));
+    let result = function();
+    FORCED.set(before);
+    result
 }
 
 /// Work that is written over packs.

@@ -119,6 +119,11 @@ impl<E, S: Real> Zeros<E, S> {
         }
     }
 
+    /// Whether a zero of the last step is held back.
+    pub(super) fn holds(&self) -> bool {
+        self.held.is_some()
+    }
+
     /// No zero on this step: what was held back from the step before is visited.
     pub(super) fn pass(
         &mut self,
@@ -146,27 +151,27 @@ impl<E, S: Real> Zeros<E, S> {
     ) -> ControlFlow<()> {
         work.event_evaluations += 1;
         let mut previous = self.held.take();
-            work.root_isolations += 1;
-            let held = &mut self.held;
-            visit_unit_interval_roots(scaled, noise, |cluster| {
-                let mut zero = on_step(&cluster, length);
-                if let Some(before) = previous.take() {
-                    if cluster.lower <= S::ZERO {
-                        // Both sides of the joint see it: one zero.
-                        zero.blur = zero.blur.max(before.blur);
-                        zero.multiplicity = zero.multiplicity.max(before.multiplicity);
-                    } else {
-                        work.roots_found += 1;
-                        visitor(before, work)?;
-                    }
+        work.root_isolations += 1;
+        let held = &mut self.held;
+        visit_unit_interval_roots(scaled, noise, |cluster| {
+            let mut zero = on_step(&cluster, length);
+            if let Some(before) = previous.take() {
+                if cluster.lower <= S::ZERO {
+                    // Both sides of the joint see it: one zero.
+                    zero.blur = zero.blur.max(before.blur);
+                    zero.multiplicity = zero.multiplicity.max(before.multiplicity);
+                } else {
+                    work.roots_found += 1;
+                    visitor(before, work)?;
                 }
-                if cluster.upper >= S::ONE && !is_last {
-                    *held = Some(ZeroCluster { offset: zero.offset - length, ..zero });
-                    return ControlFlow::Continue(());
-                }
-                work.roots_found += 1;
-                visitor(zero, work)
-            })?;
+            }
+            if cluster.upper >= S::ONE && !is_last {
+                *held = Some(ZeroCluster { offset: zero.offset - length, ..zero });
+                return ControlFlow::Continue(());
+            }
+            work.roots_found += 1;
+            visitor(zero, work)
+        })?;
         match previous {
             Some(zero) => {
                 work.roots_found += 1;
@@ -180,19 +185,20 @@ impl<E, S: Real> Zeros<E, S> {
 /// A function's coefficients along a step in units of the step, `u = offset / length`, so that they are comparable and
 /// the interval is `[0, 1]`. Made once, and reused by every step.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Expansion<P> {
+pub struct Expansion<P> {
     raw: EventSeries<P>,
     /// The coefficients.
-    pub(super) scaled: EventSeries<P>,
+    pub scaled: EventSeries<P>,
     /// The last that matters, for each member of the pack.
-    pub(super) last: [usize; MOST_MEMBERS],
+    pub last: [usize; MOST_MEMBERS],
     /// The least and the largest of these.
     lowest: usize,
     highest: usize,
 }
 
 impl<P: Pack> Expansion<P> {
-    pub(super) fn new() -> Self {
+    /// Room for one.
+    pub fn new() -> Self {
         let zero = [P::ZERO; MAX_COEFFICIENTS];
         Expansion { raw: zero, scaled: zero, last: [0; MOST_MEMBERS], lowest: 0, highest: 0 }
     }
@@ -200,7 +206,7 @@ impl<P: Pack> Expansion<P> {
     /// Expands a function over a step until what is left out does not matter, for the members that are `active`; returns
     /// the noise: what rounding, and what was left out, may hide.
     #[inline(always)]
-    pub(super) fn of<F: Flow<P>, E: EventFunction<P, F>>(
+    pub fn of<F: Flow<P>, E: EventFunction<P, F>>(
         &mut self,
         function: &E,
         jet: &Jet<P, F>,
@@ -241,7 +247,7 @@ impl<P: Pack> Expansion<P> {
             if !open.any() {
                 return noise;
             }
-            (first, last) = (last + 1, (last + order / 2).min(highest));
+            (first, last) = (last + 1, (last + order / 4).min(highest));
         }
     }
 
@@ -251,7 +257,7 @@ impl<P: Pack> Expansion<P> {
     /// On `[0, 1]` a polynomial is a mean of the partial sums of its coefficients (Abel's summation: the weights `uⁿ − uⁿ⁺¹`
     /// are not negative and add up to 1), so there is no zero where all of them have one sign beyond the noise.
     #[inline(always)]
-    pub(super) fn may_vanish(&self, first: P::Mask, vanishing_order: usize, noise: P) -> P::Mask {
+    pub fn may_vanish(&self, first: P::Mask, vanishing_order: usize, noise: P) -> P::Mask {
         let mut sum = P::select(first, P::ZERO, self.scaled[0]);
         let (mut lowest, mut largest) = (sum, sum);
         if first.any() {

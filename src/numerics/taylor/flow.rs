@@ -309,14 +309,26 @@ pub fn product_each<S: Algebra, const K: usize>(
     n: usize,
 ) -> [S; K] {
     let order = order.min(MAX_ORDER);
-    let mut sums = [S::number(0.0); K];
-    for i in n.saturating_sub(order)..=n.min(order) {
+    let (mut even, mut odd) = ([S::number(0.0); K], [S::number(0.0); K]);
+    let (mut i, end) = (n.saturating_sub(order), n.min(order));
+    while i < end {
         let j = (n - i).min(MAX_ORDER);
         for k in 0..K {
-            sums[k] = sums[k] + pairs[k].0[i] * pairs[k].1[j];
+            even[k] = even[k] + pairs[k].0[i] * pairs[k].1[j];
+            odd[k] = odd[k] + pairs[k].0[i + 1] * pairs[k].1[j - 1];
+        }
+        i += 2;
+    }
+    if i == end {
+        let j = (n - i).min(MAX_ORDER);
+        for k in 0..K {
+            even[k] = even[k] + pairs[k].0[i] * pairs[k].1[j];
         }
     }
-    sums
+    for k in 0..K {
+        even[k] = even[k] + odd[k];
+    }
+    even
 }
 
 /// Coefficient `n` of the product of two polynomials given by all their coefficients (of any number).

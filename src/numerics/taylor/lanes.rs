@@ -12,7 +12,7 @@ use crate::numerics::pack::{Mask, Pack};
 use crate::numerics::taylor::events::{EventFunction, Expansion, ZeroCluster, Zeros};
 use crate::numerics::taylor::flow::{Elements, Flow};
 use crate::numerics::taylor::integrator::{Compensated, IntegrationError, Settings};
-use crate::numerics::taylor::step::{Jet, Norms, StepPolicy, horner_increment};
+use crate::numerics::taylor::step::{Jet, StepPolicy, horner_increment};
 use std::ops::ControlFlow;
 
 /// Lanes of the widest pack.
@@ -50,14 +50,7 @@ pub trait LaneEvent<P: Pack, F: Flow<P>>: Clone {
     /// Whether there is anything to look for; if not, none of its code is compiled in.
     const PRESENT: bool;
     /// See [`Expansion::of`].
-    fn expand(
-        &self,
-        expansion: &mut Expansion<P>,
-        jet: &Jet<P, F>,
-        length: P,
-        tolerance: f64,
-        active: P::Mask,
-    ) -> P;
+    fn expand(&self, expansion: &mut Expansion<P>, jet: &Jet<P, F>, length: P, tolerance: f64, active: P::Mask) -> P;
 }
 
 impl<P: Pack, F: Flow<P>> LaneEvent<P, F> for NoEvent {
@@ -78,14 +71,7 @@ pub struct FirstZero<E>(
 impl<P: Pack, F: Flow<P>, E: EventFunction<P, F> + Clone> LaneEvent<P, F> for FirstZero<E> {
     const PRESENT: bool = true;
     #[inline(always)]
-    fn expand(
-        &self,
-        expansion: &mut Expansion<P>,
-        jet: &Jet<P, F>,
-        length: P,
-        tolerance: f64,
-        active: P::Mask,
-    ) -> P {
+    fn expand(&self, expansion: &mut Expansion<P>, jet: &Jet<P, F>, length: P, tolerance: f64, active: P::Mask) -> P {
         expansion.of(&self.0, jet, length, tolerance, active)
     }
 }
@@ -94,8 +80,25 @@ impl<P: Pack, F: Flow<P>, E: EventFunction<P, F> + Clone> LaneEvent<P, F> for Fi
 struct Lane {
     end: f64,
     zeros: Zeros<(), f64>,
+    /// Roots isolated and found; what every step costs is counted by `loaded_at`.
     work: Work,
+    /// Steps that all lanes had taken when this one was loaded.
+    loaded_at: u64,
     busy: bool,
+}
+
+impl Lane {
+    /// The work after so many steps of all lanes.
+    fn work_at(&self, steps: u64, order: usize, columns: usize, events: bool) -> Work {
+        let steps = steps - self.loaded_at;
+        Work {
+            steps,
+            flow_evaluations: steps * order as u64,
+            tangent_evaluations: steps * (order * columns) as u64,
+            event_evaluations: if events { steps } else { 0 },
+            ..self.work
+        }
+    }
 }
 
 /// Integrates all starts, each from time zero up to the first zero of the event function (known to vanish to
@@ -125,21 +128,23 @@ where
         end: 0.0,
         zeros: Zeros::new((), vanishing_order),
         work: Work::default(),
+        loaded_at: 0,
         busy: false,
     });
     let mut more = true;
+    let mut steps = 0;
+    // When the first lane may have taken as many steps as are allowed.
+    let mut first_limit = settings.maximum_steps;
     for lane in 0..P::WIDTH {
         reload(lane, &mut more, starts, &mut flow, (&mut state, &mut rest, &mut time), &mut lanes[lane]);
         end = end.with_lane(lane, lanes[lane].end);
     }
     let mut busy = P::Mask::from_lanes(|lane| lanes[lane].busy);
+    let mut holding = P::Mask::splat(false);
     while busy.any() {
         jet.expand(&flow, &state);
         let norms = jet.norms(&flow, &state, settings.norm);
-        let mut length = P::from_lanes(|lane| {
-            Norms { last: norms.last.lane(lane), before: norms.before.lane(lane), probe: norms.probe.lane(lane) }
-                .step_length(&policy)
-        });
+        let mut length = norms.step_length(&policy);
         let remaining = (end - time.value) - time.rest;
         let last = length.at_least(remaining);
         length = P::select(last, remaining, length);
@@ -166,23 +171,18 @@ where
             length = P::select(trouble, P::ZERO, length);
         }
         let stepping = busy.and(trouble.not());
-        for (lane, of) in lanes.iter_mut().enumerate().take(P::WIDTH) {
-            if stepping.lane(lane) {
-                of.work.steps += 1;
-                of.work.flow_evaluations += order as u64;
-                of.work.tangent_evaluations += (order * F::COLUMNS) as u64;
-            }
-        }
+        steps += 1;
         // Zeros of the event function on this step.
         let mut found: [Option<ZeroCluster<f64>>; MOST_LANES] = [None; MOST_LANES];
         let mut offsets = P::ZERO;
         let mut hit = P::Mask::splat(false);
         if E::PRESENT {
             let noise = event.expand(&mut expansion, &jet, length, policy.tolerance, stepping);
-            let first = P::Mask::from_lanes(|lane| lanes[lane].work.steps == 1);
+            let first = P::Mask::from_lanes(|lane| steps - lanes[lane].loaded_at == 1);
             let may = expansion.may_vanish(first, vanishing_order, noise);
+            let looked_at = stepping.and(may.or(holding));
             for (lane, of) in lanes.iter_mut().enumerate().take(P::WIDTH) {
-                if !stepping.lane(lane) {
+                if !looked_at.any() || !looked_at.lane(lane) {
                     continue;
                 }
                 let (zeros, work, found) = (&mut of.zeros, &mut of.work, &mut found[lane]);
@@ -190,7 +190,7 @@ where
                     *found = Some(zero);
                     ControlFlow::Break(())
                 };
-                let ended = if may.lane(lane) {
+                let _ = if may.lane(lane) {
                     let shift = if first.lane(lane) { vanishing_order } else { 0 };
                     let count = expansion.last[lane] + 1 - shift;
                     for (n, coefficient) in scratch.iter_mut().enumerate().take(count) {
@@ -201,7 +201,9 @@ where
                 } else {
                     zeros.pass(work, visitor)
                 };
-                let _ = ended;
+            }
+            if looked_at.any() {
+                holding = P::Mask::from_lanes(|lane| lanes[lane].zeros.holds());
             }
             hit = P::Mask::from_lanes(|lane| found[lane].is_some());
             if hit.any() {
@@ -219,7 +221,8 @@ where
                 if let Some(zero) = found[lane] {
                     let event = Some((zero.blur, zero.multiplicity));
                     let (time, state) = (times.lane(lane), lane_of::<P, F>(&at, lane));
-                    starts.finish(lane, Ok(LaneArrival { time, state, event, work: of.work }));
+                    let work = of.work_at(steps, order, F::COLUMNS, E::PRESENT);
+                    starts.finish(lane, Ok(LaneArrival { time, state, event, work }));
                     of.busy = false;
                 }
             }
@@ -234,39 +237,45 @@ where
         }
         let mut later = time;
         later.add(length);
-        time = Compensated {
-            value: P::select(last, end, later.value),
-            rest: P::select(last, P::ZERO, later.rest),
-        };
+        time = Compensated { value: P::select(last, end, later.value), rest: P::select(last, P::ZERO, later.rest) };
         let arrived = stepping.and(last).and(hit.not());
         if arrived.any() {
             for (lane, of) in lanes.iter_mut().enumerate().take(P::WIDTH) {
                 if arrived.lane(lane) {
                     let (time, state) = (of.end, lane_of::<P, F>(&state, lane));
-                    starts.finish(lane, Ok(LaneArrival { time, state, event: None, work: of.work }));
+                    let work = of.work_at(steps, order, F::COLUMNS, E::PRESENT);
+                    starts.finish(lane, Ok(LaneArrival { time, state, event: None, work }));
                     of.busy = false;
                 }
             }
             done = done.or(arrived);
         }
-        for (lane, of) in lanes.iter_mut().enumerate().take(P::WIDTH) {
-            if of.busy && of.work.steps >= settings.maximum_steps {
-                let (steps, time, end) = (of.work.steps, time.value.lane(lane), of.end);
-                let state = numbers::<P, F>(&state, lane);
-                starts.finish(lane, Err(IntegrationError::StepLimit { steps, time, end, state }));
-                of.busy = false;
-                done = done.or(P::Mask::from_lanes(|i| i == lane));
+        if steps >= first_limit {
+            first_limit = u64::MAX;
+            for (lane, of) in lanes.iter_mut().enumerate().take(P::WIDTH) {
+                let taken = steps - of.loaded_at;
+                if of.busy && taken >= settings.maximum_steps {
+                    let (time, end) = (time.value.lane(lane), of.end);
+                    let state = numbers::<P, F>(&state, lane);
+                    starts.finish(lane, Err(IntegrationError::StepLimit { steps: taken, time, end, state }));
+                    of.busy = false;
+                    done = done.or(P::Mask::from_lanes(|i| i == lane));
+                } else if of.busy {
+                    first_limit = first_limit.min(of.loaded_at + settings.maximum_steps);
+                }
             }
         }
         if done.any() {
             for lane in 0..P::WIDTH {
                 if done.lane(lane) {
                     lanes[lane].zeros = Zeros::new((), vanishing_order);
+                    lanes[lane].loaded_at = steps;
                     reload(lane, &mut more, starts, &mut flow, (&mut state, &mut rest, &mut time), &mut lanes[lane]);
                     end = end.with_lane(lane, lanes[lane].end);
                 }
             }
             busy = P::Mask::from_lanes(|lane| lanes[lane].busy);
+            holding = P::Mask::from_lanes(|lane| lanes[lane].zeros.holds());
         }
     }
 }
@@ -319,4 +328,66 @@ fn lane_of<P: Pack<Scalar = f64>, F: Flow<P>>(state: &F::State<P>, lane: usize) 
 
 fn numbers<P: Pack<Scalar = f64>, F: Flow<P>>(state: &F::State<P>, lane: usize) -> Vec<f64> {
     (0..<F::State<P> as Elements<P>>::LEN).map(|i| state.get(i).lane(lane)).collect()
+}
+
+/// Starts in a slice, and their outcomes in the same order.
+pub struct Slice<'a, T, O, L, D> {
+    starts: &'a [T],
+    next: usize,
+    /// Which start each lane has.
+    loaded: [usize; MOST_LANES],
+    outcomes: Vec<Option<O>>,
+    load: L,
+    done: D,
+}
+
+impl<'a, T, O, L, D> Slice<'a, T, O, L, D> {
+    /// `load(start, lane, flow, state)` puts a start into a lane and returns the end of its span, or the outcome of a
+    /// start that is refused; `done(start, result)` makes an outcome of a result.
+    pub fn new(starts: &'a [T], load: L, done: D) -> Self {
+        Slice { starts, next: 0, loaded: [0; MOST_LANES], outcomes: starts.iter().map(|_| None).collect(), load, done }
+    }
+
+    /// The outcomes, in the order of the starts.
+    pub fn outcomes(self) -> Vec<O> {
+        // Every start was loaded and finished, or refused.
+        self.outcomes.into_iter().flatten().collect()
+    }
+}
+
+impl<P, F, T, O, L, D> Starts<P, F> for Slice<'_, T, O, L, D>
+where
+    P: Pack<Scalar = f64>,
+    F: Flow<P>,
+    L: FnMut(&T, usize, &mut F, &mut F::State<P>) -> Result<f64, O>,
+    D: FnMut(&T, Result<LaneArrival<F::State<f64>>, IntegrationError>) -> O,
+{
+    #[inline(always)]
+    fn load(&mut self, lane: usize, flow: &mut F, state: &mut F::State<P>) -> Option<f64> {
+        while let Some(start) = self.starts.get(self.next) {
+            let index = self.next;
+            self.next += 1;
+            match (self.load)(start, lane, flow, state) {
+                Ok(end) => {
+                    self.loaded[lane] = index;
+                    return Some(end);
+                }
+                Err(outcome) => self.outcomes[index] = Some(outcome),
+            }
+        }
+        None
+    }
+
+    fn finish(&mut self, lane: usize, result: Result<LaneArrival<F::State<f64>>, IntegrationError>) {
+        let index = self.loaded[lane];
+        self.outcomes[index] = Some((self.done)(&self.starts[index], result));
+    }
+}
+
+/// Sets one member of several packs.
+#[inline(always)]
+pub fn set_lane<P: Pack<Scalar = f64>>(lane: usize, members: &mut [P], values: &[f64]) {
+    for (member, value) in members.iter_mut().zip(values) {
+        *member = member.with_lane(lane, *value);
+    }
 }

@@ -18,6 +18,7 @@
 //! Norms are largest absolute values of components over their own scales ([`Flow::scales`]), so that a momentum of 1e8
 //! does not drown a unit vector beside it.
 
+use crate::numerics::pack::{Mask, Pack};
 use crate::numerics::real::Real;
 use crate::numerics::taylor::flow::{Algebra, CAPACITY, Elements, Flow, MAX_ORDER, Series};
 
@@ -84,48 +85,15 @@ impl StepPolicy {
 /// Positive; infinite when both vanish (the solution is a polynomial, or constant); NaN when one is not finite. Within
 /// one percent of the module page's `h`. Pure, without table or transcendental call: fit for lanes.
 #[inline(always)]
-pub fn step_length_from_norms(policy: &StepPolicy, last: f64, before: f64) -> f64 {
-    let ([root, root_before], [term, term_before]) = (policy.roots, policy.logarithms);
-    let (by_last, by_before) = (term - root * rough_log2(last), term_before - root_before * rough_log2(before));
-    let length = rough_exp2(if by_last < by_before { by_last } else { by_before });
-    let finite = last < f64::INFINITY && before < f64::INFINITY;
-    if !finite {
-        f64::NAN
-    } else if last == 0.0 && before == 0.0 {
-        f64::INFINITY
-    } else {
-        length
-    }
-}
-
-/// Layout of an `f64`: width and mask of the mantissa, bias and largest value of the exponent, the bits of 1.
-const MANTISSA_WIDTH: u32 = 52;
-const MANTISSA: u64 = (1 << MANTISSA_WIDTH) - 1;
-const EXPONENT_BIAS: i32 = 1023;
-const LARGEST_EXPONENT: f64 = 2046.0;
-const ONE_BITS: u64 = (EXPONENT_BIAS as u64) << MANTISSA_WIDTH;
-/// `4 (log₂ 3/2 − 1/2)` and `4 (3/2 − √2)`: the parabolas are exact in the middle too.
-const LOG2_BEND: f64 = 0.339850002884625;
-const EXP2_BEND: f64 = 0.34314575050762;
-
-/// `log₂ x` to 0.01 for `x ≥ 0`: exponent and a parabola through the mantissa that is exact at 1, 3/2
-/// and 2. Numbers below the normal ones, zero among them, are taken as 2^−1023 to 2^−1022.
-#[inline(always)]
-fn rough_log2(x: f64) -> f64 {
-    let bits = x.to_bits();
-    let exponent = f64::from((bits >> MANTISSA_WIDTH) as i32 - EXPONENT_BIAS);
-    let beyond = f64::from_bits((bits & MANTISSA) | ONE_BITS) - 1.0;
-    exponent + beyond + LOG2_BEND * beyond * (1.0 - beyond)
-}
-
-/// `2^x` to 0.4 % within the normal numbers, and their nearest end outside: the counterpart of [`rough_log2`].
-#[inline(always)]
-fn rough_exp2(x: f64) -> f64 {
-    let shifted = (x + f64::from(EXPONENT_BIAS)).clamp(1.0, LARGEST_EXPONENT);
-    let whole = shifted as i32;
-    let beyond = shifted - f64::from(whole);
-    let power = f64::from_bits((whole as u64) << MANTISSA_WIDTH);
-    power * (1.0 + beyond - EXP2_BEND * beyond * (1.0 - beyond))
+pub fn step_length_from_norms<P: Pack<Scalar = f64>>(policy: &StepPolicy, last: P, before: P) -> P {
+    let ([root, root_before], [term, term_before]) =
+        (policy.roots.map(P::from_f64), policy.logarithms.map(P::from_f64));
+    let (by_last, by_before) = (term - root * last.rough_log2(), term_before - root_before * before.rough_log2());
+    let length = by_last.min(by_before).rough_exp2();
+    let infinity = P::from_f64(f64::INFINITY);
+    let finite = last.less(infinity).and(before.less(infinity));
+    let vanish = last.equals(P::ZERO).and(before.equals(P::ZERO));
+    P::select(finite, P::select(vanish, infinity, length), P::from_f64(f64::NAN))
 }
 
 /// The series of state and auxiliaries about the start of a step. Made once, and reused by every step.
@@ -205,10 +173,10 @@ pub struct Norms<S> {
     pub probe: S,
 }
 
-impl Norms<f64> {
+impl<P: Pack<Scalar = f64>> Norms<P> {
     /// The step length by this policy (see [`step_length_from_norms`]).
     #[inline(always)]
-    pub fn step_length(&self, policy: &StepPolicy) -> f64 {
+    pub fn step_length(&self, policy: &StepPolicy) -> P {
         step_length_from_norms(policy, self.last + self.probe, self.before + self.probe)
     }
 }
