@@ -6,5 +6,6 @@ pub mod elliptic;
 pub mod polynomial_roots;
 pub mod real;
 pub mod roots;
+pub mod runge_kutta;
 pub mod taylor;
 pub mod ulp;
