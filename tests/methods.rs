@@ -5,6 +5,8 @@
 use polhode::geometry::serret_andoyer::flow::{SerretAndoyerFlow, first_conjugate_time_by_integration};
 use polhode::geometry::spin::lift::{SpinLift, conjugate_times_by_integration};
 use polhode::numerics::counts::Work;
+use polhode::numerics::double_double::DoubleDouble;
+use polhode::numerics::real::Real;
 use polhode::numerics::runge_kutta::dop853::Dop853;
 use polhode::numerics::runge_kutta::integrator::integrate_in_equal_steps;
 use polhode::numerics::runge_kutta::method::{Method, PowerSeries};
@@ -12,7 +14,7 @@ use polhode::numerics::runge_kutta::rate::ByCoefficients;
 use polhode::numerics::runge_kutta::tableau::Pair;
 use polhode::numerics::runge_kutta::verner98::Verner98;
 use polhode::numerics::taylor::events::{Component, EventFunction, EventSeries, Events};
-use polhode::numerics::taylor::flow::{Columns, Flow, Joined, WithColumns, product};
+use polhode::numerics::taylor::flow::{Columns, Joined, WithColumns, product};
 use polhode::numerics::taylor::integrator::{Observer, Settings, Step};
 use polhode::numerics::taylor::step::{Jet, absolute_sum, horner_increment};
 use std::ops::ControlFlow;
@@ -154,6 +156,21 @@ fn exact_conjugate_times_of_the_round_sphere() {
                 assert!(error < 3.0 * tolerance, "{p_theta} {tolerance}: {error}");
             }
         }
+    }
+}
+
+#[test]
+fn a_longer_scalar_runs_and_is_as_accurate_as_the_coefficients() {
+    // Coefficients are f64: errors of some 1e-16 a step, whatever is asked, in some hundred steps.
+    fn run<P: Pair>(pair: P, tolerance: f64) -> f64 {
+        let flow = SpinLift::new(DoubleDouble::ONE);
+        let start = [1.0, 0.0, 0.0, 0.0, -0.7, 2.0].map(DoubleDouble::from_f64);
+        let span = (DoubleDouble::ZERO, DoubleDouble::from_f64(10.0));
+        let end = pair.integrate(&flow, &start, span, &Settings::new(tolerance), &mut ()).unwrap();
+        largest_difference(&end.state.map(Real::to_f64), &round_sphere(0.7, 10.0))
+    }
+    for error in [run(Dop853, 1e-14), run(Verner98, 1e-14), run(Verner98, 1e-16)] {
+        assert!(error < 1e-13, "{error}");
     }
 }
 

@@ -13,8 +13,9 @@
 //!
 //! **Events.** Their function must be a polynomial of the state, as with power series: its polynomial on the step is
 //! formed and its roots are isolated, no signs are sampled. For another function add it to the state, by its derivative
-//! along the flow. Times of events carry the error of the interpolant, which is about that of the step; `blur` holds
-//! rounding alone.
+//! along the flow. Times of events carry the error of the interpolant, which is about that of the step; `blur` and the
+//! joining of double and triple roots know of rounding alone. So where the function only touches zero, the error of the
+//! step may part the roots or lose them: a power series at full accuracy does not.
 //!
 //! Coefficients are `f64`: a longer scalar gains nothing beyond 1e-16. Not known here: any geometry.
 

