@@ -28,4 +28,6 @@ pub mod tableau;
 pub mod verner98;
 
 #[cfg(test)]
+mod order_conditions;
+#[cfg(test)]
 mod tests;

@@ -76,7 +76,43 @@ impl<S: Real, F: Flow<S>> Rate<S> for ByCoefficients<'_, F> {
     }
 }
 
-/// A right-hand side to be integrated by its values alone.
+/// A right-hand side to be integrated by its values alone. Power series refuse it when compiled; the pairs take it:
+///
+/// ```
+/// # use polhode::numerics::runge_kutta::{dop853::Dop853, integrator::integrate, rate::{ByRate, RightHandSide}};
+/// # use polhode::numerics::taylor::integrator::{IntegrationError, Settings};
+/// struct Forced;
+/// impl RightHandSide<f64> for Forced {
+///     type State<T: Copy> = [T; 1];
+///     fn rate(&self, time: f64, x: &[f64; 1]) -> [f64; 1] {
+///         [x[0] / (1.0 + time)]
+///     }
+///     fn scales(&self, x: &[f64; 1]) -> [f64; 1] {
+///         [x[0].abs()]
+///     }
+/// }
+/// # fn main() -> Result<(), IntegrationError> {
+/// let end = integrate(Dop853, &ByRate::new(Forced), &[1.0], (0.0, 3.0), &Settings::new(1e-12), &mut ())?;
+/// assert!((end.state[0] - 4.0).abs() < 1e-10);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// ```compile_fail,E0277
+/// # use polhode::numerics::runge_kutta::rate::{ByRate, RightHandSide};
+/// # use polhode::numerics::taylor::integrator::{IntegrationError, Settings, integrate};
+/// # struct Forced;
+/// # impl RightHandSide<f64> for Forced {
+/// #     type State<T: Copy> = [T; 1];
+/// #     fn rate(&self, time: f64, x: &[f64; 1]) -> [f64; 1] {
+/// #         [x[0] / (1.0 + time)]
+/// #     }
+/// #     fn scales(&self, x: &[f64; 1]) -> [f64; 1] {
+/// #         [x[0].abs()]
+/// #     }
+/// # }
+/// let _ = integrate(&ByRate::new(Forced), &[1.0], (0.0, 3.0), &Settings::new(1e-12), &mut ());
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct ByRate<R>(Trace<R>);
 
