@@ -10,9 +10,10 @@ pub struct Work {
     pub state_dimension: u64,
     /// Steps taken.
     pub steps: u64,
-    /// Evaluations of the base flow's right-hand side; for a power series, one per order and step.
+    /// Evaluations of the base flow's right-hand side; for a power series, one per order and step; for a Runge-Kutta
+    /// pair, one per stage, those of refused steps included.
     pub flow_evaluations: u64,
-    /// Evaluations of one tangent column (Jacobi field); for a power series, one per column, order and step.
+    /// Evaluations of one tangent column (Jacobi field), one per column and evaluation of the base flow.
     pub tangent_evaluations: u64,
     /// Event functions expanded along a step.
     pub event_evaluations: u64,

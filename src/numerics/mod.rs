@@ -9,5 +9,6 @@ pub mod polynomial_roots;
 pub mod real;
 pub mod roots;
 pub mod rough;
+pub mod runge_kutta;
 pub mod taylor;
 pub mod ulp;

@@ -36,3 +36,22 @@ pub fn rough_exp2(x: f64) -> f64 {
     let power = f64::from_bits((whole as u64) << MANTISSA_WIDTH);
     power * (1.0 + beyond - EXP2_BEND * beyond * (1.0 - beyond))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rough_roots_are_good_to_a_percent() {
+        // Oracle: libm. All numbers of the sweep are normal ones.
+        for i in -30_000..30_000 {
+            let x = libm::exp2(f64::from(i) * 0.033);
+            assert!((rough_log2(x) - libm::log2(x)).abs() < 0.01, "{x}");
+            let y = f64::from(i) * 0.033;
+            assert!((rough_exp2(y) / libm::exp2(y) - 1.0).abs() < 0.004, "{y}");
+        }
+        assert_eq!([0.0, 1.0, 1.5, 8.0].map(rough_log2).map(|x| (x * 1e6).round()), [-1023e6, 0.0, 584963.0, 3e6]);
+        assert_eq!([-1e9, 0.0, 10.0].map(rough_exp2), [f64::MIN_POSITIVE, 1.0, 1024.0]);
+        assert!(rough_exp2(1e9).is_finite());
+    }
+}

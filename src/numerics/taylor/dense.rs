@@ -7,7 +7,7 @@
 use crate::numerics::counts::Work;
 use crate::numerics::real::Real;
 use crate::numerics::taylor::flow::{Elements, Flow};
-use crate::numerics::taylor::integrator::{IntegrationError, Observer, Settings, Step, integrate};
+use crate::numerics::taylor::integrator::{Compensated, IntegrationError, Observer, Settings, Step, integrate};
 use std::ops::ControlFlow;
 
 /// Evaluates the state at given times, ordered in the direction of the integration.
@@ -25,6 +25,11 @@ impl<'t, S: Real, F: Flow<S>> SampleAt<'t, S, F> {
 }
 
 impl<S: Real, F: Flow<S>> Observer<S, F> for SampleAt<'_, S, F> {
+    fn looks_into(&self, start: &Compensated<S>, length: S) -> bool {
+        let next = self.times.get(self.states.len());
+        next.is_some_and(|&time| ((time - start.value) - start.rest).abs() <= length.abs())
+    }
+
     fn observe(&mut self, step: &Step<'_, S, F>, work: &mut Work) -> ControlFlow<()> {
         while let Some(&time) = self.times.get(self.states.len()) {
             let offset = (time - step.start.value) - step.start.rest;

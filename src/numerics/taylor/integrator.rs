@@ -125,7 +125,8 @@ pub struct Step<'a, S: Real, F: Flow<S>> {
     pub last: bool,
     /// The relative error asked for.
     pub tolerance: f64,
-    rest: &'a F::State<S>,
+    /// What the compensated sums hold beside the state at the start.
+    pub rest: &'a F::State<S>,
 }
 
 impl<S: Real, F: Flow<S>> Step<'_, S, F> {
@@ -147,12 +148,23 @@ impl<S: Real, F: Flow<S>> Step<'_, S, F> {
 
 /// What looks at each step of an integration.
 pub trait Observer<S: Real, F: Flow<S>> {
+    /// Whether it will evaluate the polynomial of the step from `start` over `length`. Where it will not, a method that
+    /// would have to work for that polynomial leaves it out, and the step's series mean nothing.
+    #[inline(always)]
+    fn looks_into(&self, _start: &Compensated<S>, _length: S) -> bool {
+        true
+    }
+
     /// Called after each step's series is known and before the state moves on; `Break` ends the integration there.
     fn observe(&mut self, step: &Step<'_, S, F>, work: &mut Work) -> ControlFlow<()>;
 }
 
 /// Looks at nothing.
 impl<S: Real, F: Flow<S>> Observer<S, F> for () {
+    #[inline(always)]
+    fn looks_into(&self, _: &Compensated<S>, _: S) -> bool {
+        false
+    }
     #[inline(always)]
     fn observe(&mut self, _: &Step<'_, S, F>, _: &mut Work) -> ControlFlow<()> {
         ControlFlow::Continue(())
@@ -161,6 +173,9 @@ impl<S: Real, F: Flow<S>> Observer<S, F> for () {
 
 /// Both look; the first to stop stops.
 impl<S: Real, F: Flow<S>, A: Observer<S, F>, B: Observer<S, F>> Observer<S, F> for (A, B) {
+    fn looks_into(&self, start: &Compensated<S>, length: S) -> bool {
+        self.0.looks_into(start, length) || self.1.looks_into(start, length)
+    }
     fn observe(&mut self, step: &Step<'_, S, F>, work: &mut Work) -> ControlFlow<()> {
         let first = self.0.observe(step, work);
         let second = self.1.observe(step, work);
@@ -248,7 +263,7 @@ pub fn integrate<S: Real, F: Flow<S>, O: Observer<S, F>>(
     }
 }
 
-fn check_request<S: Real>(span: (S, S), settings: &Settings) -> Result<(), IntegrationError> {
+pub(in crate::numerics) fn check_request<S: Real>(span: (S, S), settings: &Settings) -> Result<(), IntegrationError> {
     for (name, value) in [("start of the time span", span.0), ("end of the time span", span.1)] {
         if !value.is_finite() {
             return Err(IntegrationError::Request { name, value: value.to_f64() });
@@ -260,7 +275,7 @@ fn check_request<S: Real>(span: (S, S), settings: &Settings) -> Result<(), Integ
     Ok(())
 }
 
-fn as_numbers<S: Real, F: Flow<S>>(state: &F::State<S>) -> Vec<f64> {
+pub(in crate::numerics) fn as_numbers<S: Real, F: Flow<S>>(state: &F::State<S>) -> Vec<f64> {
     (0..<F::State<S> as Elements<S>>::LEN).map(|i| state.get(i).to_f64()).collect()
 }
 
