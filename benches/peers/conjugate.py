@@ -20,7 +20,8 @@ Every peer is given the best form known to us, and the benefit of the doubt:
   Rust       ode_solvers (DOP853), numeris (Verner 9(8)), differential-equations (DOP853, its event): see rust/. Built here, with lto.
 polhode: `cargo bench --bench conjugate_points -- --json`, by the bench profile. Its closed forms compute the point as well as the time.
 
-Times are the fastest of several passes over all starts, after one that warms up; all processes are pinned to one core. What is not
+Times are the fastest of several passes, after one that warms up (in Rust block by block of the starts, in Python by the time of the
+process, so that a busy machine disturbs little); all processes are pinned to one core. What is not
 installed is left out, and said. Nothing is written unless --save is given.
 """
 
@@ -62,13 +63,13 @@ def row(tool, problem, asked, microseconds, found):
 
 
 def fastest(work, seconds=0.5, least=3):
-    """Seconds of the fastest pass."""
+    """Seconds of the fastest pass, in time of this process: a pass is longer than the system's time slices."""
     work()
     best, begun, passes = math.inf, time.perf_counter(), 0
     while passes < least or time.perf_counter() - begun < seconds:
-        start = time.perf_counter()
+        start = time.process_time()
         work()
-        best = min(best, time.perf_counter() - start)
+        best = min(best, time.process_time() - start)
         passes += 1
     return best
 
