@@ -134,7 +134,7 @@ const BODIES: usize = 2000;
 fn bodies() -> Vec<([f64; 3], [f64; 3])> {
     let mut random = Random(12);
     let draw = |i: usize| {
-        let spread = if i % 3 == 0 { random.log_between(1e-8, 1e-4) } else { 1.0 };
+        let spread = if i.is_multiple_of(3) { random.log_between(1e-8, 1e-4) } else { 1.0 };
         let a = random.between(0.4, 2.0);
         let b = a * (1.0 + spread * random.unit());
         let c = b * (1.0 + spread * random.unit());

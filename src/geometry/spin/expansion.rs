@@ -71,7 +71,7 @@ pub fn value<S: Real>(series: &[S; TERMS], y: S) -> S {
 fn radius_and_last<S: Real>(sizes: [S; 3]) -> (S, S) {
     let eighth_root = |x: S| x.sqrt().sqrt().sqrt();
     let largest = sizes[0].max(sizes[1]).max(sizes[2]);
-    if !(largest > S::ZERO) {
+    if largest == S::ZERO {
         return (S::ONE, S::ZERO);
     }
     // An upper bound to start with: the highest coefficient, unless it is so small that it certainly says nothing.
@@ -86,7 +86,7 @@ fn radius_and_last<S: Real>(sizes: [S; 3]) -> (S, S) {
             if excess <= S::from_f64(WITHIN) {
                 break;
             }
-            radius = radius / eighth_root(excess);
+            radius /= eighth_root(excess);
         }
     }
     let square = radius * radius;
