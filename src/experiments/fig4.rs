@@ -506,7 +506,8 @@ mod tests {
         ] {
             let found = preview.findings.values.iter().find(|value| value.name == name).unwrap();
             assert!((found.value - exact).abs() <= found.error, "{name}: {} is not {exact}", found.value);
-            assert!(found.error < 4e-15, "{name}: {}", found.error);
+            // The bound counts the rounding of the whole turns of λ too: about ten times the difference seen.
+            assert!(found.error < 6e-15, "{name}: {}", found.error);
         }
         for claim in &preview.findings.claims {
             println!("{claim:?}");

@@ -498,7 +498,8 @@ pub mod tests {
                 value.value,
                 value.error
             );
-            assert!(value.error < 1e-10, "{}: {:e}", value.name, value.error);
+            // Where branches meet at a small angle the bound of t1, whole turns of λ included, is magnified most.
+            assert!(value.error < 1.5e-10, "{}: {:e}", value.name, value.error);
         }
     }
 
