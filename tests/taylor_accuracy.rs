@@ -91,8 +91,7 @@ impl Problem for Spin {
 }
 
 struct SerretAndoyer {
-    inverse_inertia: [f64; 3],
-    p_x: f64,
+    flow: SerretAndoyerFlow<f64>,
     base: [f64; 5],
     span: f64,
 }
@@ -105,7 +104,13 @@ fn random_inertia(random: &mut Random) -> [f64; 3] {
 
 impl SerretAndoyer {
     fn flow<S: Real>(&self) -> SerretAndoyerFlow<S> {
-        SerretAndoyerFlow { inverse_inertia: self.inverse_inertia.map(S::from_f64), p_x: S::from_f64(self.p_x) }
+        let SerretAndoyerFlow { inverse_inertia, p_x, alpha, beta } = self.flow;
+        SerretAndoyerFlow {
+            inverse_inertia: inverse_inertia.map(S::from_f64),
+            p_x: S::from_f64(p_x),
+            alpha: S::from_f64(alpha),
+            beta: S::from_f64(beta),
+        }
     }
 }
 
@@ -114,17 +119,15 @@ impl Problem for SerretAndoyer {
     fn draw(random: &mut Random) -> Self {
         let inverse_inertia = random_inertia(random);
         let (p_y, p_x) = libm::sincos(random.between(0.0, TAU));
-        let flow = SerretAndoyerFlow { inverse_inertia, p_x };
-        let base = flow.start(random.between(0.0, TAU), p_y);
-        SerretAndoyer { inverse_inertia, p_x, base, span: random.between(2.0, 6.0) }
+        let (flow, base) = SerretAndoyerFlow::new(inverse_inertia, random.between(0.0, TAU), p_x, p_y);
+        SerretAndoyer { flow, base, span: random.between(2.0, 6.0) }
     }
     fn system<S: Real>(&self) -> Self::System<S> {
-        let (_, y_rate) = self.flow::<f64>().velocity(&self.base);
-        WithColumns { flow: self.flow(), parameters: [S::from_f64(-y_rate)] }
+        let (_, parameter) = self.flow.column(&self.base);
+        WithColumns { flow: self.flow(), parameters: [S::from_f64(parameter)] }
     }
     fn start(&self) -> Vec<f64> {
-        let (x_rate, _) = self.flow::<f64>().velocity(&self.base);
-        self.base.into_iter().chain([0.0, x_rate]).collect()
+        self.base.into_iter().chain(self.flow.column(&self.base).0).collect()
     }
     fn span(&self) -> f64 {
         self.span
