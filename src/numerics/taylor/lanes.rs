@@ -12,7 +12,7 @@ use crate::numerics::pack::{Mask, Pack};
 use crate::numerics::taylor::events::{EventFunction, Expansion, ZeroCluster, Zeros};
 use crate::numerics::taylor::flow::{Elements, Flow};
 use crate::numerics::taylor::integrator::{Compensated, IntegrationError, Settings};
-use crate::numerics::taylor::step::{Jet, StepPolicy, horner_increment};
+use crate::numerics::taylor::step::{Jet, StepPolicy, horner_increments};
 use std::ops::ControlFlow;
 
 /// Lanes of the widest pack.
@@ -212,9 +212,9 @@ where
         }
         if hit.any() {
             let mut at = F::State::<P>::filled(P::ZERO);
+            let increments = horner_increments::<P, F>(&jet.state, order, offsets);
             for i in 0..dimension {
-                let series = jet.state.get(i);
-                *at.get_mut(i) = series[0] + (*rest.get(i) + horner_increment(series, order, offsets));
+                *at.get_mut(i) = jet.state.get(i)[0] + (*rest.get(i) + *increments.get(i));
             }
             let times = time.plus(offsets);
             for (lane, of) in lanes.iter_mut().enumerate().take(P::WIDTH) {
@@ -229,9 +229,10 @@ where
             done = done.or(hit);
         }
         // The others move on.
+        let increments = horner_increments::<P, F>(&jet.state, order, length);
         for i in 0..dimension {
             let mut sum = Compensated { value: *state.get(i), rest: *rest.get(i) };
-            sum.add(horner_increment(jet.state.get(i), order, length));
+            sum.add(*increments.get(i));
             *state.get_mut(i) = sum.value;
             *rest.get_mut(i) = sum.rest;
         }

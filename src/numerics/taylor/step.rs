@@ -210,6 +210,28 @@ pub fn horner_increment<S: Algebra>(series: &Series<S>, order: usize, offset: S)
     sum * offset
 }
 
+/// [`horner_increment`] of every component, side by side: a processor need not wait for one to begin the next.
+#[inline(always)]
+pub fn horner_increments<S: Algebra, F: Flow<S>>(state: &F::State<Series<S>>, order: usize, offset: S) -> F::State<S> {
+    let dimension = <F::State<S> as Elements<S>>::LEN;
+    let order = order.min(MAX_ORDER);
+    let mut sums = F::State::<S>::filled(S::number(0.0));
+    for i in 0..dimension {
+        *sums.get_mut(i) = state.get(i)[order];
+    }
+    for n in (1..order).rev() {
+        for i in 0..dimension {
+            let sum = sums.get_mut(i);
+            *sum = *sum * offset + state.get(i)[n];
+        }
+    }
+    for i in 0..dimension {
+        let sum = sums.get_mut(i);
+        *sum = *sum * offset;
+    }
+    sums
+}
+
 /// An upper bound of a series' absolute value on `[0, length]`: the sum of the absolute values of its terms.
 #[inline(always)]
 pub fn absolute_sum<S: Algebra>(series: &Series<S>, order: usize, length: S) -> S {
