@@ -18,6 +18,7 @@
 //! difference of `ξ`s, so nothing is lost near the turning points. Not known here: the path (`path.rs`), conjugate points.
 
 use super::darboux::FromEquator;
+use super::equation::{Chart, Form, Oscillating};
 use super::metric::Metric;
 pub use super::start::{Branch, Clairaut, Start, StartError};
 use crate::numerics::elliptic::complete::complete_k;
@@ -190,27 +191,31 @@ impl<S: Real> Extremal<S> {
         let Energies { to_separatrix, to_equator, to_minor_axis, in_y, .. } = energies;
         let zero = S::ZERO;
         let oscillating = to_separatrix > zero;
-        let (speed_squared, mc, m, gain_squared, nu) = if oscillating {
-            let square = ba * to_minor_axis;
-            (
-                square,
-                ca * to_separatrix / square,
-                cb * to_equator / square,
-                ca * to_equator / square,
-                to_equator / to_minor_axis,
-            )
-        } else if to_minor_axis >= zero {
-            let square = cb * to_equator;
-            (square, ca * -to_separatrix / square, ba * to_minor_axis / square, ca / cb, ba / cb)
+        let form = if oscillating {
+            let metric = [metric.a(), metric.b(), metric.c()];
+            Form::new(metric, [to_separatrix, to_equator, to_minor_axis, in_y], angle.sine)
         } else {
-            let square = ca * -to_separatrix;
-            (
-                square,
-                cb * to_equator / square,
-                ba * -to_minor_axis / square,
-                to_equator / -to_separatrix,
-                ba * p_x * p_x / -to_separatrix,
-            )
+            let (square, mc, m, gain_squared, nu) = if to_minor_axis >= zero {
+                let square = cb * to_equator;
+                (square, ca * -to_separatrix / square, ba * to_minor_axis / square, ca / cb, ba / cb)
+            } else {
+                let square = ca * -to_separatrix;
+                (
+                    square,
+                    cb * to_equator / square,
+                    ba * -to_minor_axis / square,
+                    to_equator / -to_separatrix,
+                    ba * p_x * p_x / -to_separatrix,
+                )
+            };
+            let gain = gain_squared.sqrt();
+            // Tangent of the amplitude at the start as a quotient.
+            let (numerator, denominator) = (angle.sine, gain * angle.cosine);
+            let length = (numerator * numerator + denominator * denominator).sqrt();
+            // At rest every phase is right: take the turning point.
+            let (sine, cosine) =
+                if length > zero { (numerator / length, denominator / length) } else { (S::ONE, S::ZERO) };
+            Form { m, mc, speed: square.sqrt(), gain, nu, sine, cosine }
         };
         let class = match (oscillating, to_equator > zero) {
             (true, false) => ExtremalClass::Equator,
@@ -220,16 +225,7 @@ impl<S: Real> Extremal<S> {
             (false, _) if in_y > zero => ExtremalClass::Separatrix,
             (false, _) => ExtremalClass::MiddleAxis,
         };
-        let gain = gain_squared.sqrt();
-        // Tangent of the amplitude at the start as a quotient.
-        let (numerator, denominator) = if oscillating {
-            (angle.sine * (ba * to_minor_axis / ca).sqrt(), in_y.sqrt())
-        } else {
-            (angle.sine, gain * angle.cosine)
-        };
-        let length = (numerator * numerator + denominator * denominator).sqrt();
-        // On the equator, and at rest on the middle axis, every phase is right: take the turning point.
-        let (sine, cosine) = if length > zero { (numerator / length, denominator / length) } else { (S::ONE, S::ZERO) };
+        let Form { m, mc, speed, gain, nu, sine, cosine } = form;
         Self {
             metric: *metric,
             energies,
@@ -240,12 +236,44 @@ impl<S: Real> Extremal<S> {
             direction,
             m,
             mc,
-            speed: speed_squared.sqrt(),
+            speed,
             gain,
             nu,
             complete_k: complete_k(mc),
             sine,
             cosine,
+        }
+    }
+
+    /// What the equation of the conjugate point needs of an extremal that oscillates.
+    pub(super) fn oscillating(&self) -> Oscillating<S> {
+        let (metric, e) = (&self.metric, &self.energies);
+        let Self { m, mc, speed, gain, nu, sine, cosine, .. } = *self;
+        Oscillating {
+            a: metric.a(),
+            b: metric.b(),
+            c: metric.c(),
+            to_separatrix: e.to_separatrix,
+            to_equator: e.to_equator,
+            to_minor_axis: e.to_minor_axis,
+            separatrix_error: e.separatrix_error,
+            minor_axis_error: e.minor_axis_error,
+            in_y_error: e.in_y_error,
+            direction: self.direction,
+            form: Form { m, mc, speed, gain, nu, sine, cosine },
+        }
+    }
+
+    /// What its place needs besides.
+    pub(super) fn chart(&self) -> Chart<S> {
+        let metric = &self.metric;
+        Chart {
+            p_x: self.p_x,
+            half_turns: self.angle.half_turns,
+            alpha: metric.alpha(),
+            parameter: metric.parameter(),
+            complementary_parameter: metric.complementary_parameter(),
+            complete_k: metric.complete_k(),
         }
     }
 

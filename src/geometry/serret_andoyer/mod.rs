@@ -6,6 +6,7 @@
 pub mod conjugate;
 pub mod curvature;
 pub mod darboux;
+mod equation;
 pub mod extremal;
 pub mod flow;
 pub mod metric;

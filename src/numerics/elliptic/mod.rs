@@ -4,5 +4,7 @@ pub mod carlson;
 pub mod complete;
 pub mod incomplete;
 pub mod jacobi;
+pub mod mean;
+pub mod third_kind;
 #[cfg(test)]
 pub(crate) mod oracle;
