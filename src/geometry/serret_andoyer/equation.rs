@@ -407,13 +407,8 @@ pub(super) fn place<P: Pack>(e: &Oscillating<P>, chart: &Chart<P>) -> Place<P> {
     let from = Start::new(e);
     let (q, square) = from.arguments(&e.form);
     let sine_squared = from.sine * from.sine;
-    let (f, d, at_start) = r_f_r_d_and_r_j(
-        q,
-        P::ONE,
-        square,
-        P::ONE + nu * sine_squared,
-        nc * nu * (nu + m) * cube(sine_squared),
-    );
+    let (f, d, at_start) =
+        r_f_r_d_and_r_j(q, P::ONE, square, P::ONE + nu * sine_squared, nc * nu * (nu + m) * cube(sine_squared));
     let start = equation.with_integrals(from.sine / from.cosine, from.sine * f, cube(from.sine) * d * third());
     let end = equation.end(from.turning, &start);
     let time = equation.time(e, from.turning, &start, &end);
@@ -457,7 +452,8 @@ fn cube<P: Pack>(x: P) -> P {
 #[inline(always)]
 fn near_sinh<P: Pack>(x: P) -> P {
     let square = x * x;
-    x * (P::ONE + square * c::<P>(1.0, 6.0) * (P::ONE + square * c::<P>(1.0, 20.0) * (P::ONE + square * c::<P>(1.0, 42.0))))
+    x * (P::ONE
+        + square * c::<P>(1.0, 6.0) * (P::ONE + square * c::<P>(1.0, 20.0) * (P::ONE + square * c::<P>(1.0, 42.0))))
 }
 
 /// `sinh(w + δ)` from `sinh w` and `cosh w`: to rounding for the last step, a guess for the others.

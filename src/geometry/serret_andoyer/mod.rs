@@ -9,6 +9,7 @@ pub mod darboux;
 mod equation;
 pub mod extremal;
 pub mod flow;
+pub mod lanes;
 pub mod metric;
 pub mod path;
 pub mod period;
