@@ -147,6 +147,14 @@ struct End<P: Pack> {
     unsolved: P::Mask,
 }
 
+impl<P: Pack> AtPhase<P> {
+    /// Twice `−∂v/∂ln m'` at a fixed tangent, `∫m'sc²/dc²`: at most `v` and at most `m'∫sc²`.
+    #[inline(always)]
+    fn spread(&self) -> P {
+        self.v.abs().min(self.tangent_part.abs())
+    }
+}
+
 impl<P: Pack> Equation<P> {
     #[inline(always)]
     fn new(extremal: &Oscillating<P>, complete_k: P, complete_b: P) -> Self {
@@ -229,10 +237,9 @@ impl<P: Pack> Equation<P> {
             if !active.any() {
                 break;
             }
-            let inside = |next: P| next.more(lower).and(next.less(upper));
             let newton = moved(tangent, secant, newton);
             let middle = lower + half * (tangent.min(upper) - lower);
-            let guarded = P::select(inside(next), next, P::select(inside(newton), newton, middle));
+            let guarded = P::select(inside(next, lower, upper), next, P::select(inside(newton, lower, upper), newton, middle));
             tangent = P::select(active, guarded, tangent);
         }
         let square = end * end;
@@ -305,6 +312,13 @@ impl<P: Pack> Equation<P> {
         (newton, delta, v * delta * over)
     }
 
+    /// `|∂P/∂ln D|` at a fixed tangent, at most.
+    #[inline(always)]
+    fn p_slope(&self, at: &AtPhase<P>) -> P {
+        let part = self.m * P::from_f64(0.5) * (at.tangent_part.abs() + self.capital * at.spread());
+        part + self.capital * self.lambda * at.v.abs()
+    }
+
     /// First-order bound of the relative error of `t1`: known errors of `D`, `X3` and the starting phase, times the derivatives
     /// of `T`, plus the rounding of the sums themselves.
     #[inline(always)]
@@ -316,14 +330,10 @@ impl<P: Pack> Equation<P> {
         let of_speed = half * e.minor_axis_error + P::EPSILON;
         // d ln m'/d ln D = m, dK/d ln m' = −B/2.
         let k_slope = -(half * m * self.complete_b);
-        // −∂v/∂ln m' = V/2 at a fixed tangent, with V = ∫m'sc²/dc² at most v and at most m'∫sc².
-        let spread = |at: &AtPhase<P>| at.v.abs().min(at.tangent_part.abs());
-        let p_slope =
-            |at: &AtPhase<P>| m * half * (at.tangent_part.abs() + capital * spread(at)) + capital * lambda * at.v.abs();
         let n_slope = m * half * (mc * (k - self.complete_b) + lambda * self.complete_b) - capital * lambda * k;
-        let own = p_slope(end) + p_slope(start) + (n_slope + n_slope).abs();
+        let own = self.p_slope(end) + self.p_slope(start) + (n_slope + n_slope).abs();
         let over = P::ONE / end.rate;
-        let d_slope = (k_slope + k_slope).abs() + half * m * (spread(start) + spread(end)) + own * over;
+        let d_slope = (k_slope + k_slope).abs() + half * m * (start.spread() + end.spread()) + own * over;
         // ln S0 moves w by tanh w = sn.
         let start_slope = e.form.sine.abs() * (start.rate * over - P::ONE).abs() / start.dc;
         let of_start = half * e.in_y_error + P::from_f64(3.0) * P::EPSILON;
@@ -446,6 +456,11 @@ fn third<P: Pack>() -> P {
 #[inline(always)]
 fn cube<P: Pack>(x: P) -> P {
     x * x * x
+}
+
+#[inline(always)]
+fn inside<P: Pack>(x: P, lower: P, upper: P) -> P::Mask {
+    x.more(lower).and(x.less(upper))
 }
 
 /// `sinh x` of a small argument, by its series: to rounding for `|x| ≤ EPSILON^(1/8)`, a guess beyond.

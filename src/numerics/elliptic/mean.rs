@@ -23,12 +23,90 @@ struct Generalized<P> {
     beta: P,
 }
 
+impl<P: Pack> Generalized<P> {
+    /// `cel(√m', p², a, b)` before its first step.
+    #[inline(always)]
+    fn new(p: P, a: P, b: P) -> Self {
+        Self { p, alpha: a, beta: b / p }
+    }
+
+    #[inline(always)]
+    fn step(&mut self, mean: &Mean<P>) {
+        let half = P::from_f64(0.5);
+        let Self { p, alpha, beta } = *self;
+        let inverse = P::ONE / p;
+        let quotient = mean.a * mean.b * inverse;
+        self.p = P::select(mean.active, (p + quotient) * half, p);
+        self.alpha = P::select(mean.active, (alpha + beta * inverse) * half, alpha);
+        self.beta = P::select(mean.active, (beta + alpha * quotient) * half, beta);
+    }
+
+    /// A step with `p = 1` at the first: then `p` is the mean itself.
+    #[inline(always)]
+    fn step_along(&mut self, mean: &Mean<P>) {
+        let half = P::from_f64(0.5);
+        let Self { alpha, beta, .. } = *self;
+        self.alpha = P::select(mean.active, (alpha + beta / mean.a) * half, alpha);
+        self.beta = P::select(mean.active, (beta + alpha * mean.b) * half, beta);
+    }
+
+    #[inline(always)]
+    fn value(&self, mean: P) -> P {
+        P::PI * P::from_f64(0.5) * (self.beta + self.alpha * mean) / (mean * (mean + self.p))
+    }
+}
+
+/// The mean of `1` and `√m'` on its way.
+struct Mean<P: Pack> {
+    a: P,
+    b: P,
+    mean: P,
+    /// Members of which the last pair was not yet close enough.
+    active: P::Mask,
+}
+
+impl<P: Pack> Mean<P> {
+    #[inline(always)]
+    fn new(mc: P) -> Self {
+        let b = mc.sqrt();
+        Self { a: P::ONE, b, mean: (P::ONE + b) * P::from_f64(0.5), active: mc.more(P::ZERO) }
+    }
+
+    /// The next pair, if any member needs one.
+    #[inline(always)]
+    fn advance(&mut self) -> bool {
+        // The limit differs from this mean by (a − b)²/(16 a): below rounding once |a − b| ≤ √ε a.
+        let near = (self.a - self.b).abs().at_most(P::EPSILON.sqrt() * self.a);
+        self.active = self.active.and(near.not());
+        if !self.active.any() {
+            return false;
+        }
+        self.b = P::select(self.active, (self.a * self.b).sqrt(), self.b);
+        self.a = P::select(self.active, self.mean, self.a);
+        self.mean = (self.a + self.b) * P::from_f64(0.5);
+        true
+    }
+
+    #[inline(always)]
+    fn first_kind(&self, mc: P) -> P {
+        let value = P::PI * P::from_f64(0.5) / self.mean;
+        let outside = P::select(mc.equals(P::ZERO), P::from_f64(f64::INFINITY), P::from_f64(f64::NAN));
+        P::select(mc.more(P::ZERO), value, outside)
+    }
+}
+
 /// `K(m) = ∫₀^{π/2} dx / √(1 − m sin²x) = π / (2 agm(1, √m'))`.
 ///
 /// Domain: `m' ≥ 0` (`m' > 1`, that is `m < 0`, included). Guarantee: 2 ε relative. `m' = 0`: infinity.
 #[inline(always)]
 pub fn complete_k<P: Pack>(mc: P) -> P {
-    first_kind(mc, mean_of(mc, |_, _, _| {}))
+    let mut mean = Mean::new(mc);
+    for _ in 0..MAX_MEAN_STEPS {
+        if !mean.advance() {
+            break;
+        }
+    }
+    mean.first_kind(mc)
 }
 
 /// `(K, B)`, `B = ∫₀^{π/2} cos²x / √(1 − m sin²x) dx = (E − m' K)/m`.
@@ -36,9 +114,16 @@ pub fn complete_k<P: Pack>(mc: P) -> P {
 /// Domain: `m' > 0`. Guarantee: 2 ε and 4 ε relative. The bits of K are those of [`complete_k`].
 #[inline(always)]
 pub fn complete_k_and_b<P: Pack>(mc: P) -> (P, P) {
-    let mut second = (P::ONE, P::ZERO);
-    let mean = mean_of(mc, |active, a, b| second_step(&mut second, active, a, b));
-    (first_kind(mc, mean), second_kind(second, mean))
+    let mut mean = Mean::new(mc);
+    let mut second = Generalized::new(P::ONE, P::ONE, P::ZERO);
+    for _ in 0..MAX_MEAN_STEPS {
+        second.step_along(&mean);
+        if !mean.advance() {
+            break;
+        }
+    }
+    second.p = mean.mean;
+    (mean.first_kind(mc), second.value(mean.mean))
 }
 
 /// `(K, B, J)`, `J = ∫₀^{π/2} sin²x / ((1 − n sin²x) √(1 − m sin²x)) dx = (Π − K)/n`; only `n' = 1 − n` enters.
@@ -46,66 +131,18 @@ pub fn complete_k_and_b<P: Pack>(mc: P) -> (P, P) {
 /// Domain: `m' > 0`, `n' > 0`. Guarantee: 2, 4 and 6 ε relative. The bits of K and B are those of [`complete_k_and_b`].
 #[inline(always)]
 pub fn complete_k_b_and_j<P: Pack>(mc: P, nc: P) -> (P, P, P) {
-    let half = P::from_f64(0.5);
-    let mut second = (P::ONE, P::ZERO);
-    let root = nc.sqrt();
-    let mut third = Generalized { p: root, alpha: P::ZERO, beta: P::ONE / root };
-    let mean = mean_of(mc, |active, a, b| {
-        second_step(&mut second, active, a, b);
-        let inverse = P::ONE / third.p;
-        let quotient = a * b * inverse;
-        let Generalized { p, alpha, beta } = third;
-        third = Generalized {
-            p: P::select(active, (p + quotient) * half, p),
-            alpha: P::select(active, (alpha + beta * inverse) * half, alpha),
-            beta: P::select(active, (beta + alpha * quotient) * half, beta),
-        };
-    });
-    let j = P::PI * half * (third.beta + third.alpha * mean) / (mean * (mean + third.p));
-    (first_kind(mc, mean), second_kind(second, mean), j)
-}
-
-#[inline(always)]
-fn first_kind<P: Pack>(mc: P, mean: P) -> P {
-    let value = P::PI * P::from_f64(0.5) / mean;
-    let outside = P::select(mc.equals(P::ZERO), P::from_f64(f64::INFINITY), P::from_f64(f64::NAN));
-    P::select(mc.more(P::ZERO), value, outside)
-}
-
-/// A step of `cel` with `p = 1`: there the mean itself takes the place of `p`.
-#[inline(always)]
-fn second_step<P: Pack>(second: &mut (P, P), active: P::Mask, a: P, b: P) {
-    let half = P::from_f64(0.5);
-    let (alpha, beta) = *second;
-    second.0 = P::select(active, (alpha + beta / a) * half, alpha);
-    second.1 = P::select(active, (beta + alpha * b) * half, beta);
-}
-
-#[inline(always)]
-fn second_kind<P: Pack>((alpha, beta): (P, P), mean: P) -> P {
-    P::PI * P::from_f64(0.5) * (beta + alpha * mean) / (mean * (mean + mean))
-}
-
-/// The mean of `1` and `√m'`; `step(active, a, b)` is told every pair on the way.
-#[inline(always)]
-fn mean_of<P: Pack>(mc: P, mut step: impl FnMut(P::Mask, P, P)) -> P {
-    let half = P::from_f64(0.5);
-    let near = P::EPSILON.sqrt();
-    let (mut a, mut b) = (P::ONE, mc.sqrt());
-    let mut mean = (a + b) * half;
-    let mut active = mc.more(P::ZERO);
+    let mut mean = Mean::new(mc);
+    let mut second = Generalized::new(P::ONE, P::ONE, P::ZERO);
+    let mut third = Generalized::new(nc.sqrt(), P::ZERO, P::ONE);
     for _ in 0..MAX_MEAN_STEPS {
-        step(active, a, b);
-        // The limit differs from this mean by (a − b)²/(16 a): below rounding once |a − b| ≤ √ε a.
-        active = active.and((a - b).abs().at_most(near * a).not());
-        if !active.any() {
+        second.step_along(&mean);
+        third.step(&mean);
+        if !mean.advance() {
             break;
         }
-        b = P::select(active, (a * b).sqrt(), b);
-        a = P::select(active, mean, a);
-        mean = (a + b) * half;
     }
-    mean
+    second.p = mean.mean;
+    (mean.first_kind(mc), second.value(mean.mean), third.value(mean.mean))
 }
 
 #[cfg(test)]
