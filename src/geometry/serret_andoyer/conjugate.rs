@@ -11,8 +11,8 @@
 //! mirrored, `v → −v`; the article's `ψ0` is `K + v0`.
 //!
 //! The unknown is `S = sc(v) = sinh w`; with `D = √(1 + m'S²) = dc(v)`, `dP/dw = (m'S² + λ)/D` and
-//! `d²P/dw² = (1 + Λ/D²) m' S √(1+S²)/D`, both positive for `S > 0`: P is convex in w. From an upper bound Newton's method falls
-//! monotonically to the root; Halley's correction is added, with a bracket as a guard. Everything summed is positive.
+//! `d²P/dw² = (1 + Λ/D²) m' S √(1+S²)/D`, both positive for `S > 0`: P is convex in w. How it is solved, for one extremal
+//! or for eight beside each other, is `equation.rs`; for many starts there is `lanes.rs`. Everything summed is positive.
 //!
 //! Checked against the pole-free equation of eq. (15) solved with 50 digits and against the printed locus. Not known here:
 //! later conjugate times (each needs one more `2N` and `2K`), cut points.
@@ -151,9 +151,9 @@ fn solved_in<S: Real>(found: &Time<S>) -> Result<usize, NoConjugatePoint> {
     Ok(found.iterations.to_f64() as usize)
 }
 
-/// K and B; F and R_D together for the start and for each step.
+/// K and B; F and R_D together for the start, for the coarse step and for each other one.
 pub(super) fn elliptic_calls_of_time(iterations: usize) -> usize {
-    if iterations == 0 { 2 } else { 3 + iterations }
+    if iterations == 0 { 2 } else { 4 + iterations }
 }
 
 /// Besides, J over a quarter period, at the start and at the end.

@@ -5,21 +5,30 @@
 //!
 //! A step evaluates `P` and `v` once and expands both in `w` to the seventh order there (`D = dc` is the root of
 //! `1 + m' sinh² w`, `dv/dw = 1/D`, `dP/dw = D − Λ/D`; the nearest singularities are π/2 away). The expansion's own root is the next
-//! `w`; a step of at most `EPSILON^(1/8)` is the last one: what the expansion leaves out is below rounding.
+//! `w`; a step of at most `EPSILON^(1/8)` is the last one: what the expansion leaves out is below rounding. Before the first, a coarse
+//! step with fewer duplications and a lower order improves the guess, which is an upper bound of the root; after it mostly one is
+//! enough. A bracket guards every step. The only functions called are square roots: `sinh(w + δ)` follows from `sinh w`,
+//! `cosh w` and the series of `sinh(δ/2)`, which has to be right for the last, small step only.
 //!
 //! Generic over [`Pack`], with no branch on a value: the same bits for a member alone or beside others. Not known here: which
 //! extremals oscillate; nothing else may be passed.
 
-use crate::numerics::elliptic::carlson::{r_f, r_f_and_r_d};
+use crate::numerics::elliptic::carlson::{r_f, r_f_and_r_d, r_f_and_r_d_within};
 use crate::numerics::elliptic::mean::{complete_k_and_b, complete_k_b_and_j};
 use crate::numerics::elliptic::third_kind::{r_f_r_d_and_r_j, r_j_circular};
 use crate::numerics::pack::{Mask, Pack};
 
-/// Steps after which the solver gives up; twenty thousand starts over the whole domain needed four at most.
+/// Steps after which the solver gives up, the coarse one not counted; twenty thousand starts over the whole domain needed three at most.
 pub(super) const MAX_ITERATIONS: usize = 80;
 
 /// Order to which `P` and `v` are expanded.
 const ORDER: usize = 7;
+
+/// The same for the first step, from values to `COARSE⁸`.
+const COARSE_ORDER: usize = 4;
+
+/// Relative spread of the arguments at which the duplications of the first step end.
+const COARSE: f64 = 0.25;
 
 /// What the start of an oscillating extremal says of it.
 #[derive(Clone, Copy, Debug)]
@@ -186,9 +195,9 @@ impl<P: Pack> Equation<P> {
     }
 
     #[inline(always)]
-    fn at_tangent(&self, tangent: P) -> AtPhase<P> {
+    fn at_tangent(&self, tangent: P, spread: P) -> AtPhase<P> {
         let square = tangent * tangent;
-        let (f, d) = r_f_and_r_d(P::ONE + self.mc * square, P::ONE + square, P::ONE);
+        let (f, d) = r_f_and_r_d_within(spread, P::ONE + self.mc * square, P::ONE + square, P::ONE);
         self.with_integrals(tangent, tangent * f, tangent * (square * d) * third())
     }
 
@@ -216,19 +225,26 @@ impl<P: Pack> Equation<P> {
         // P is odd.
         let mirrored = p.less(P::ZERO);
         let p = p.abs();
-        let mut tangent = self.first_guess(p);
+        let guess = self.first_guess(p);
+        let mut tangent = {
+            let at = self.at_tangent(guess, P::from_f64(COARSE));
+            let secant = (P::ONE + at.square).sqrt();
+            let (_, delta, _) = self.root_of_expansion::<COARSE_ORDER, 1>(&at, secant, at.p - p);
+            let next = moved(guess, secant, delta);
+            P::select(inside(next, P::ZERO, infinity), next, guess)
+        };
         let (mut lower, mut upper) = (P::ZERO, infinity);
         let mut active = P::Mask::splat(true);
         let (mut end, mut v, mut iterations) = (tangent, P::ZERO, P::ZERO);
         for _ in 0..MAX_ITERATIONS {
-            let at = self.at_tangent(tangent);
+            let at = self.at_tangent(tangent, P::EPSILON_ROOT_8);
             iterations = P::select(active, iterations + P::ONE, iterations);
             let excess = at.p - p;
             let above = excess.more(P::ZERO);
             upper = P::select(above, tangent, upper);
             lower = P::select(above, lower, tangent);
             let secant = (P::ONE + at.square).sqrt();
-            let (newton, delta, forward) = self.root_of_expansion(&at, secant, excess);
+            let (newton, delta, forward) = self.root_of_expansion::<ORDER, 2>(&at, secant, excess);
             let next = moved(tangent, secant, delta);
             let last = active.and(delta.abs().at_most(P::EPSILON_ROOT_8));
             end = P::select(last, next, end);
@@ -239,7 +255,8 @@ impl<P: Pack> Equation<P> {
             }
             let newton = moved(tangent, secant, newton);
             let middle = lower + half * (tangent.min(upper) - lower);
-            let guarded = P::select(inside(next, lower, upper), next, P::select(inside(newton, lower, upper), newton, middle));
+            let guarded =
+                P::select(inside(next, lower, upper), next, P::select(inside(newton, lower, upper), newton, middle));
             tangent = P::select(active, guarded, tangent);
         }
         let square = end * end;
@@ -258,8 +275,15 @@ impl<P: Pack> Equation<P> {
     }
 
     /// Newton's step of `w`, the step to the root of `P`'s expansion about `at`, and the growth of `v` on it.
+    ///
+    /// The root by Halley's step and `POLISH` of Newton's: for steps up to `EPSILON^(1/8)` two are enough for every digit.
     #[inline(always)]
-    fn root_of_expansion(&self, at: &AtPhase<P>, secant: P, excess: P) -> (P, P, P) {
+    fn root_of_expansion<const ORDER: usize, const POLISH: usize>(
+        &self,
+        at: &AtPhase<P>,
+        secant: P,
+        excess: P,
+    ) -> (P, P, P) {
         let (half, two) = (P::from_f64(0.5), P::from_f64(2.0));
         let over = P::ONE / at.dc;
         // e(δ) = D²(w+δ)/D² − 1 = m'(sinh²(w+δ) − sinh²w)/D², by sinh² = (cosh 2w − 1)/2.
@@ -273,7 +297,7 @@ impl<P: Pack> Equation<P> {
         for k in 1..ORDER {
             factorial *= k as f64;
             let mut sum = P::select(P::Mask::splat(k % 2 == 1), odd, even) * power * c::<P>(1.0, factorial);
-            power = power * two;
+            power *= two;
             for j in 1..k {
                 sum -= root[j] * root[k - j];
             }
@@ -293,7 +317,7 @@ impl<P: Pack> Equation<P> {
         let newton = -(excess / slope);
         // Halley's step, then Newton's on the expansion, where it is of use.
         let mut delta = newton / (P::ONE + newton * p[1] / slope).max(half);
-        for _ in 0..2 {
+        for _ in 0..POLISH {
             let (mut value, mut derivative) = (P::ZERO, P::ZERO);
             for k in (0..ORDER).rev() {
                 derivative = derivative * delta + value;
@@ -478,3 +502,7 @@ fn moved<P: Pack>(tangent: P, secant: P, delta: P) -> P {
     let square = sinh * sinh;
     tangent + P::from_f64(2.0) * (tangent * square + secant * sinh * (P::ONE + square).sqrt())
 }
+
+#[cfg(test)]
+#[path = "equation_tests.rs"]
+mod tests;

@@ -169,6 +169,14 @@ pub(super) fn r_d_series<S: Pack>(x: S, y: S, mean: S) -> S {
 /// The two share every square root: about 0.6 of the time of both calls. Domain and guarantee: those of [`r_d`].
 #[inline(always)]
 pub fn r_f_and_r_d<S: Pack>(x: S, y: S, z: S) -> (S, S) {
+    r_f_and_r_d_within(S::EPSILON_ROOT_8, x, y, z)
+}
+
+/// [`r_f_and_r_d`] by fewer duplications: until the arguments are within `spread < 1` of their mean, relative to it.
+///
+/// Guarantee: about `spread⁸` relative, and a few ε.
+#[inline(always)]
+pub fn r_f_and_r_d_within<S: Pack>(spread_wanted: S, x: S, y: S, z: S) -> (S, S) {
     let zero = S::ZERO;
     let in_domain = none_negative(x, y, z).and((x + y).more(zero)).and(z.more(zero));
     let quarter = S::from_f64(0.25);
@@ -182,7 +190,7 @@ pub fn r_f_and_r_d<S: Pack>(x: S, y: S, z: S) -> (S, S) {
     for _ in 0..MAX_DUPLICATIONS {
         // The spread about the mean of R_D; about that of R_F it is smaller than 5/3 of the range and both are within the series.
         let spread = (mean - x).abs().max((mean - y).abs()).max((mean - z).abs());
-        let apart = in_domain.and(spread.more(S::EPSILON_ROOT_8 * mean));
+        let apart = in_domain.and(spread.more(spread_wanted * mean));
         if !apart.any() {
             break;
         }

@@ -5,6 +5,6 @@ pub mod complete;
 pub mod incomplete;
 pub mod jacobi;
 pub mod mean;
-pub mod third_kind;
 #[cfg(test)]
 pub(crate) mod oracle;
+pub mod third_kind;
