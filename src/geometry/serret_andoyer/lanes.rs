@@ -1,7 +1,7 @@
 //! First conjugate points of many starts, eight beside each other.
 //!
 //! Every start has the bits of [`Extremal::new`] and [`first_conjugate_point`](super::first_conjugate_point) alone, whatever
-//! stands beside it and whichever instructions carry it out: both are the one source of [`super::equation`]. What is said of
+//! stands beside it and whichever instructions carry it out: both are the one source of `equation.rs`. What is said of
 //! a start before its motion is known (chart, energies, refusals) is computed one by one, and remembered while the
 //! coordinate stays the same, as along a locus; starts that don't oscillate are answered there. The others wait until
 //! there are eight; the last ones are joined by copies of one of them.
