@@ -15,8 +15,10 @@ use polhode::geometry::serret_andoyer::flow::first_conjugate_time_by_integration
 use polhode::geometry::serret_andoyer::flow_lanes::{
     FlowStart, first_conjugate_times_by_integration as serret_andoyer_in_lanes,
 };
+use polhode::geometry::serret_andoyer::lanes::{first_conjugate_locus, first_conjugate_times};
 use polhode::geometry::serret_andoyer::{Branch, Clairaut, Extremal, Metric, Start, first_conjugate_point};
 use polhode::geometry::spin::conjugate::{first_conjugate_point as spin_point, nth_conjugate_time};
+use polhode::geometry::spin::lanes::first_conjugate_points as spin_points;
 use polhode::geometry::spin::lift::first_conjugate_time_by_integration as spin_by_integration;
 use polhode::geometry::spin::lift_lanes::first_conjugate_times_by_integration as spin_in_lanes;
 use polhode::geometry::spin::pendulum::{first_conjugate_time_by_pendulum, first_conjugate_times_by_pendulum};
@@ -175,6 +177,15 @@ fn serret_andoyer(value: &Value) -> Result<Vec<Row>, Box<dyn Error>> {
         by_delta.one_at_a_time("closed form, from delta, t1 alone", None, time_alone),
         by_momenta.one_at_a_time("closed form, from momenta", None, as_point_does),
         by_momenta.one_at_a_time("closed form, from momenta, t1 alone", None, time_alone),
+        by_delta.in_lanes("closed form, from delta, 8 lanes", None, |starts| {
+            times(first_conjugate_locus(&metric, starts), |point| point.t1)
+        }),
+        by_momenta.in_lanes("closed form, from momenta, 8 lanes", None, |starts| {
+            times(first_conjugate_locus(&metric, starts), |point| point.t1)
+        }),
+        by_momenta.in_lanes("closed form, from momenta, t1 alone, 8 lanes", None, |starts| {
+            times(first_conjugate_times(&metric, starts), |time| time.t1)
+        }),
     ];
     let momenta = problem("SA", value, "t1", |start| {
         let (y0, p_x, p_y) = (number(start, "y0")?, number(start, "p_x")?, number(start, "p_y")?);
@@ -203,6 +214,12 @@ fn spin(value: &Value) -> Result<Vec<Row>, Box<dyn Error>> {
             Ok(nth_conjugate_time(&SpinStart::new(black_box(k), p_theta)?, 1)?)
         }),
     ];
+    let lane_starts = problem("SPIN", value, "t1", |start| {
+        SpinStart::new(k, number(start, "p_theta")?).map_err(|error| error.to_string())
+    })?;
+    rows.push(
+        lane_starts.in_lanes("closed form, 8 lanes", None, |starts| times(spin_points(starts), |point| point.t1)),
+    );
     for asked in ASKED {
         rows.push(spin.one_at_a_time("Taylor, lift", Some(asked), |&p_theta| {
             spin_by_integration(k, p_theta, asked, T_MAX).map(|(found, _)| found.t1)
