@@ -63,7 +63,7 @@ pub fn ask_for_branch(
     let k = sweep.values()[index];
     let axes = [("k", format!("{k:?}"))];
     let origins = origins(sweep, index);
-    let locus = nodes.add(LOCUS, &axes, ConjugateLocus { k, p_theta }, &[], &origins)?;
+    let locus = nodes.add(LOCUS, &axes, ConjugateLocus { k, p_theta: p_theta.into() }, &[], &origins)?;
     let second = ConjugateLocusByIntegration::new(k, accuracy);
     nodes.add(BY_INTEGRATION, &axes, second, &[(by_integration::INPUT, &locus)], &origins[..1])?;
     Ok(locus)
