@@ -326,10 +326,9 @@ impl Params {
                 StartMomenta::Branch(momenta) => Starts::Branch(*momenta),
                 StartMomenta::Swept(sweep) => Starts::Listed(sweep.values()),
             };
-            let Trajectories { count, step } = self.trajectories.unwrap_or(Trajectories {
-                count: spin::DEFAULT_TRAJECTORIES.0,
-                step: spin::DEFAULT_TRAJECTORIES.1,
-            });
+            let Trajectories { count, step } = self
+                .trajectories
+                .unwrap_or(Trajectories { count: spin::DEFAULT_TRAJECTORIES.0, step: spin::DEFAULT_TRAJECTORIES.1 });
             let k = keyed(&spin.k, "scene.metric.spin.k");
             let times = self.times(&spin::DEFAULT_TIMES);
             return Some(Scenery::Spin(Spin { effects, k, starts, trajectories: (count, step), times, accuracy }));

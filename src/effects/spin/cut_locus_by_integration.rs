@@ -105,15 +105,16 @@ impl Compute for CutLocusByIntegration {
         let distance: Vec<f64> = rows.iter().enumerate().map(|(i, row)| distance(row.r, [r1[i], 0.0, r3[i]])).collect();
         let allowed: Vec<f64> = error.iter().map(|error| error.max(self.allowed)).collect();
         let long: Vec<bool> = rows.iter().map(|row| row.double_double).collect();
-        let table = Table::builder("spin-cut-locus-by-integration", "first returns to the equator by integrating the lift")
-            .column("p_theta", "1", "p_θ(0)", p_theta)
-            .column("t", "time", "first return to the equator", rows.iter().map(|row| row.t).collect::<Vec<_>>())
-            .column("t_difference", "1", "relative difference of t to the closed form", difference)
-            .column("distance", "1", "distance of the point in R³ to the closed form's", distance)
-            .column("allowed", "1", "largest relative difference of t that is allowed", allowed)
-            .column("double_double", "", "integrated with 106 bits", long)
-            .build()
-            .map_err(failed("second route"))?;
+        let table =
+            Table::builder("spin-cut-locus-by-integration", "first returns to the equator by integrating the lift")
+                .column("p_theta", "1", "p_θ(0)", p_theta)
+                .column("t", "time", "first return to the equator", rows.iter().map(|row| row.t).collect::<Vec<_>>())
+                .column("t_difference", "1", "relative difference of t to the closed form", difference)
+                .column("distance", "1", "distance of the point in R³ to the closed form's", distance)
+                .column("allowed", "1", "largest relative difference of t that is allowed", allowed)
+                .column("double_double", "", "integrated with 106 bits", long)
+                .build()
+                .map_err(failed("second route"))?;
         product(&table, work)
     }
 }
@@ -142,7 +143,12 @@ mod tests {
             let column = |name: &str| table.f64s(name).unwrap();
             let long = table.bools("double_double").unwrap().iter().filter(|long| **long).count();
             let largest = |name: &str| column(name).iter().copied().fold(0.0, f64::max);
-            println!("k = {k}: {} rows, {long} long, {:e}, {:e}", table.rows(), largest("t_difference"), largest("distance"));
+            println!(
+                "k = {k}: {} rows, {long} long, {:e}, {:e}",
+                table.rows(),
+                largest("t_difference"),
+                largest("distance")
+            );
             for i in 0..table.rows() {
                 assert!(column("t_difference")[i] <= column("allowed")[i], "k = {k}, p = {}", column("p_theta")[i]);
                 // The point moves with t by the speed 1 to 1/k times; t ≤ π max(1, k).

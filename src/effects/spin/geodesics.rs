@@ -95,9 +95,8 @@ fn chosen(branch: &[BranchPoint], count: u32) -> Vec<f64> {
     }
     let length = along[along.len() - 1];
     let wanted = |i: u32| length * f64::from(i) / f64::from(count - 1).max(1.0);
-    let mut chosen: Vec<f64> = (0..count)
-        .map(|i| branch[along.partition_point(|s| *s < wanted(i)).min(branch.len() - 1)].p_theta)
-        .collect();
+    let mut chosen: Vec<f64> =
+        (0..count).map(|i| branch[along.partition_point(|s| *s < wanted(i)).min(branch.len() - 1)].p_theta).collect();
     chosen.dedup();
     chosen
 }

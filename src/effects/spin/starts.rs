@@ -64,8 +64,7 @@ mod tests {
     fn listed_starts_are_those_of_the_branch() {
         let momenta = Momenta { from: 1e-9, to: 1e4, step: 0.2 };
         let (sampled, _) = Starts::from(momenta).branch(0.8).unwrap();
-        let (listed, work) =
-            Starts::Listed(sampled.iter().map(|row| row.p_theta).collect()).branch(0.8).unwrap();
+        let (listed, work) = Starts::Listed(sampled.iter().map(|row| row.p_theta).collect()).branch(0.8).unwrap();
         assert_eq!(work.roots_solved, sampled.len() as u64);
         for (one, other) in sampled.iter().zip(&listed) {
             assert_eq!((one.point, one.theta.to_bits()), (other.point, other.theta.to_bits()));

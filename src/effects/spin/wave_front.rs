@@ -80,7 +80,10 @@ impl WaveFront {
         while far(&rows[0].1, &first, GAP * self.step) {
             low *= fall;
             if low < SMALLEST {
-                let message = format!("k = {:?}, t = {:?}: no momentum is small enough to be that of the meridian", self.k, self.t);
+                let message = format!(
+                    "k = {:?}, t = {:?}: no momentum is small enough to be that of the meridian",
+                    self.k, self.t
+                );
                 return Err(NodeError::new(message));
             }
             first = at(low)?;
@@ -112,7 +115,9 @@ impl Compute for WaveFront {
     fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
         let Self { k, t, step } = *self;
         if !(t > 0.0 && t.is_finite() && step > 0.0 && step <= 1.0 && k > 0.0) {
-            return Err(NodeError::new(format!("k = {k:?}, t = {t:?}, step = {step:?}: above 0, step up to 1 are needed")));
+            return Err(NodeError::new(format!(
+                "k = {k:?}, t = {t:?}, step = {step:?}: above 0, step up to 1 are needed"
+            )));
         }
         let (rows, computed) = self.rows()?;
         let mut theta = continuous(rows.iter().rev().map(|(_, place)| place.theta));

@@ -20,11 +20,7 @@ pub const CASES: [Role; 4] = [Role::SeriesA, Role::SeriesB, Role::SeriesC, Role:
 pub fn plane(trajectories: &[Trajectory<'_>]) -> Panel {
     let y = Axis::new("*Φ*_2").unit("rad");
     let inside = trajectories.iter().all(|t| t.angles[1].iter().all(|phi2| (0.0..=PI).contains(phi2)));
-    let y = if inside {
-        y.fixed(0.0, PI).ticks_at([(0.0, "0"), (0.5 * PI, "π/2"), (PI, "π")])
-    } else {
-        y.pi_ticks()
-    };
+    let y = if inside { y.fixed(0.0, PI).ticks_at([(0.0, "0"), (0.5 * PI, "π/2"), (PI, "π")]) } else { y.pi_ticks() };
     Panel::new(Axis::new("*Φ*_1").unit("rad").pi_ticks(), y).equal()
 }
 
@@ -71,7 +67,10 @@ impl<'t> Trajectory<'t> {
 
     /// Start and conjugate points of a curve: the role, the row and the words of the legend.
     fn marks(&self) -> Vec<(Role, usize, &'static str)> {
-        let found = [(Role::ConjugatePoint, 1, "first conjugate point"), (Role::SecondConjugatePoint, 2, "second conjugate point")];
+        let found = [
+            (Role::ConjugatePoint, 1, "first conjugate point"),
+            (Role::SecondConjugatePoint, 2, "second conjugate point"),
+        ];
         let found = found.into_iter().filter_map(|(role, mark, words)| Some((role, self.row(mark)?, words)));
         std::iter::once((Role::Start, 0, "start")).chain(found).collect()
     }
@@ -105,9 +104,10 @@ impl<'t> Trajectory<'t> {
     pub fn in_plane(panel: Panel, trajectory: &Self, case: usize) -> Panel {
         let [phi1, phi2, _] = trajectory.angles;
         let points: Vec<(f64, f64)> = phi1.iter().copied().zip(phi2.iter().copied()).collect();
-        let panel = trajectory.marks().into_iter().fold(panel, |panel, (role, row, words)| {
-            panel.mark(Points::new(role, vec![points[row]]).legend(words))
-        });
+        let panel = trajectory
+            .marks()
+            .into_iter()
+            .fold(panel, |panel, (role, row, words)| panel.mark(Points::new(role, vec![points[row]]).legend(words)));
         panel.mark(Curve::new(CASES[case % CASES.len()], points).label(format!("case {}", case + 1)))
     }
 

@@ -21,13 +21,7 @@ pub fn curvature_panel(table: &Table, profile: &Table) -> Result<Panel, NodeErro
     let (edge, zero, least) = (value("half_width")?, value("phi_zero")?, value("phi_minimum")?);
     let (top, bottom, at_edge) =
         (value("curvature_maximum")?, value("curvature_minimum")?, value("curvature_at_edge")?);
-    let ticks = [
-        (-edge, "−*K*/*α*"),
-        (-zero, "−*φ*_1"),
-        (0.0, "0"),
-        (zero, "*φ*_1"),
-        (edge, "*K*/*α*"),
-    ];
+    let ticks = [(-edge, "−*K*/*α*"), (-zero, "−*φ*_1"), (0.0, "0"), (zero, "*φ*_1"), (edge, "*K*/*α*")];
     let highest = largest(table, "mu")?.max(top);
     // The minimum and the edge: so close in height that only a magnified part tells them apart.
     let (near, depth) = (edge - least, at_edge - bottom);

@@ -18,7 +18,10 @@ pub struct SecondRoute {
 
 /// The tables of a node, one a value of its sweep.
 fn tables_of<'a>(tables: &'a Tables, node: &str) -> Vec<(&'a str, &'a Table)> {
-    tables.iter().filter(|(name, _)| *name == node || name.strip_prefix(node).is_some_and(|rest| rest.starts_with('/'))).collect()
+    tables
+        .iter()
+        .filter(|(name, _)| *name == node || name.strip_prefix(node).is_some_and(|rest| rest.starts_with('/')))
+        .collect()
 }
 
 /// `points_NAME` for each table of these nodes: a name of Python's and TOML's, `=` and `.` in it as everywhere.
@@ -91,7 +94,9 @@ pub fn agreement(tables: &Tables, routes: &[SecondRoute], id: &str) -> Result<Op
         evidence: Evidence::Direct(Test::AtMost {
             measured: worst,
             tolerance: 1.0,
-            reason: format!("difference in units of what is allowed for the row, at most {largest_allowed:.1e}; {rows} rows"),
+            reason: format!(
+                "difference in units of what is allowed for the row, at most {largest_allowed:.1e}; {rows} rows"
+            ),
         }),
         note: String::new(),
     };

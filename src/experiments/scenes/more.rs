@@ -43,7 +43,8 @@ pub fn defaults(values: &[f64]) -> Vec<Keyed> {
 
 /// The effects that are not the figure's own, and whether there is one that is.
 fn parted<M, S>(scene: &Scene<M, S>, own: &[Effect], metric: &str) -> (bool, Vec<Effect>) {
-    let (mine, further): (Vec<Effect>, Vec<Effect>) = scene.effects.iter().copied().partition(|effect| own.contains(effect));
+    let (mine, further): (Vec<Effect>, Vec<Effect>) =
+        scene.effects.iter().copied().partition(|effect| own.contains(effect));
     (!mine.is_empty(), further.into_iter().filter(|effect| supported(metric).contains(effect)).collect())
 }
 
@@ -78,10 +79,8 @@ impl Asked {
     ) -> Self {
         let (own, effects) = parted(scene, own, crate::effects::scene::SERRET_ANDOYER);
         let more = (!effects.is_empty()).then(|| {
-            let starts = phi0.map_or_else(
-                || defaults(&[serret_andoyer::DEFAULT_PHI0]),
-                |phi0| keyed(phi0, "scene.start.phi0"),
-            );
+            let starts =
+                phi0.map_or_else(|| defaults(&[serret_andoyer::DEFAULT_PHI0]), |phi0| keyed(phi0, "scene.start.phi0"));
             Scenery::SerretAndoyer(SerretAndoyer {
                 effects,
                 metric: scene.metric,

@@ -50,11 +50,15 @@ pub fn under(own: Picture, caption: &str, blocks: Vec<Block>) -> Picture {
     for block in blocks {
         let columns = block.in_row(width);
         let (across, down) = (1.0 / columns as f64, block.row_mm / cells_mm);
+        let count = block.panels.len();
         for (i, panel) in block.panels.into_iter().enumerate() {
             if i > 0 && i % columns == 0 {
                 top += down;
             }
-            cells.push(Cell { left: across * (i % columns) as f64, top, width: across, height: down });
+            // A last row that is not full stands in the middle.
+            let in_row = columns.min(count - (i - i % columns));
+            let left = across * ((i % columns) as f64 + 0.5 * (columns - in_row) as f64);
+            cells.push(Cell { left, top, width: across, height: down });
             panels.push(panel);
         }
         top += down;

@@ -104,8 +104,7 @@ pub fn potential_panel(members: &[Member], phi0: f64) -> Result<Panel, NodeError
     for (i, member) in family.iter().enumerate() {
         let text = format!("{}", member.p_theta);
         let label = DirectLabel::new(text).at(At::Fraction(0.86));
-        panel =
-            panel.mark(Curve::new(Role::Potential, member.points.clone()).tone(i as f64 / last).label(label));
+        panel = panel.mark(Curve::new(Role::Potential, member.points.clone()).tone(i as f64 / last).label(label));
     }
     Ok(panel.mark(Points::new(Role::Start, vec![(phi0, 1.0)])))
 }

@@ -44,15 +44,27 @@ const PATH: &str = "projected-path";
 const ROUTES: [(Effect, SecondRoute); 3] = [
     (
         Effect::ConjugateTimes,
-        SecondRoute { node: TIMES_CHECK, difference: "t1_difference", what: "first conjugate times on SO(3) (relative)" },
+        SecondRoute {
+            node: TIMES_CHECK,
+            difference: "t1_difference",
+            what: "first conjugate times on SO(3) (relative)",
+        },
     ),
     (
         Effect::ConjugateTimes,
-        SecondRoute { node: TIMES_CHECK, difference: "t2_difference", what: "second conjugate times on SO(3) (relative)" },
+        SecondRoute {
+            node: TIMES_CHECK,
+            difference: "t2_difference",
+            what: "second conjugate times on SO(3) (relative)",
+        },
     ),
     (
         Effect::Projection,
-        SecondRoute { node: POINT_CHECK, difference: "t1_difference", what: "conjugate times of the projections (relative)" },
+        SecondRoute {
+            node: POINT_CHECK,
+            difference: "t1_difference",
+            what: "conjugate times of the projections (relative)",
+        },
     ),
 ];
 
@@ -155,10 +167,7 @@ impl RotationGroup {
         }
         let columns = above.len().clamp(1, 2);
         let across = below.len().clamp(1, 3);
-        Ok(vec![
-            Block { panels: above, columns, row_mm: 58.0 },
-            Block { panels: below, columns: across, row_mm: 64.0 },
-        ])
+        Ok(vec![Block { panels: above, columns, row_mm: 58.0 }, Block { panels: below, columns: across, row_mm: 64.0 }])
     }
 
     /// Conjugate times case by case: where no curve is asked for.

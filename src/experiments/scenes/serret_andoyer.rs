@@ -51,6 +51,9 @@ const LIGHTEST: f64 = 0.7;
 /// Most strips of one picture.
 pub const MOST_PANELS: usize = 6;
 
+/// Of the constants between separatrix and equator, the part next to the separatrix where periods go off the panel.
+const NEAR_SEPARATRIX: f64 = 0.02;
+
 const LOCUS: &str = "conjugate-locus";
 const CHECK: &str = "conjugate-locus-by-integration";
 const CUT: &str = "cut-locus";
@@ -191,10 +194,7 @@ impl SerretAndoyer {
             }
         }
         let columns = if others.len() == 1 { 1 } else { 2 };
-        Ok(vec![
-            Block { panels: strips, columns: 1, row_mm: 62.0 },
-            Block { panels: others, columns, row_mm: 82.0 },
-        ])
+        Ok(vec![Block { panels: strips, columns: 1, row_mm: 62.0 }, Block { panels: others, columns, row_mm: 82.0 }])
     }
 
     fn strip(&self, tables: &Tables, phi0: f64) -> Result<Panel, NodeError> {
@@ -210,9 +210,7 @@ impl SerretAndoyer {
             panel = panel.mark(RuleLine::horizontal(Role::Reference, edge).legend("*φ* = ±*K*/*α*"));
         }
         let both = |panel: Panel, role: Role, points: Vec<(f64, f64)>, text: &str| {
-            panel
-                .mark(Curve::new(role, mirrored(&points)).legend(text))
-                .mark(Curve::new(role, points).legend(text))
+            panel.mark(Curve::new(role, mirrored(&points)).legend(text)).mark(Curve::new(role, points).legend(text))
         };
         if self.asks(Effect::Geodesics) {
             let table = tables.get(&name(GEODESICS, phi0)).map_err(unread)?;
@@ -254,7 +252,8 @@ impl SerretAndoyer {
         let shown = self.shown();
         let mut text = format!("Serret-Andoyer metric, A = {a}, B = {b}, C = {c}, at arc length.");
         if self.has_strips() || self.asks(Effect::Potential) {
-            text += &format!(" Starts (θ, φ) = (0, φ0), φ0 = {}, on the universal cover.", listed(shown.iter().copied()));
+            text +=
+                &format!(" Starts (θ, φ) = (0, φ0), φ0 = {}, on the universal cover.", listed(shown.iter().copied()));
             if shown.len() < self.phi0.len() {
                 text += &format!(" {} of {} starts are drawn; all are in the data.", shown.len(), self.phi0.len());
             }
@@ -275,14 +274,19 @@ impl SerretAndoyer {
         }
         if self.asks(Effect::WaveFront) {
             let times = listed(self.times.iter().map(|(t, _)| *t));
-            text += &format!(" Wave fronts at t = {times} from all directions, closed form; parts beyond the panel are cut off.");
+            text += &format!(
+                " Wave fronts at t = {times} from all directions, closed form; parts beyond the panel are cut off."
+            );
         }
         if self.asks(Effect::Geodesics) {
             text += " Extremals with φ' of both signs, and their mirror images: the separatrices p_θ = ±B^(−1/2)";
             if self.p_theta.is_empty() {
                 text += ".";
             } else {
-                text += &format!(", and p_θ = {} as far as a direction at the start has it.", listed(self.p_theta.iter().copied()));
+                text += &format!(
+                    ", and p_θ = {} as far as a direction at the start has it.",
+                    listed(self.p_theta.iter().copied())
+                );
             }
         }
         if self.asks(Effect::Curvature) {
@@ -337,10 +341,13 @@ fn period_panel(table: &Table) -> Result<Panel, NodeError> {
     let ends = |points: &[(f64, f64)]| points.first().zip(points.last()).map(|(first, last)| (last.0, first.0));
     let (separatrix, equator) = ends(&half).ok_or_else(|| NodeError::new("no period"))?;
     let middle = 0.5 * (separatrix + equator);
-    let ticks = [(separatrix, "*B*^{−1/2}".to_owned()), (middle, format!("{middle:.3}")), (equator, "*A*^{−1/2}".to_owned())];
+    let ticks =
+        [(separatrix, "*B*^{−1/2}".to_owned()), (middle, format!("{middle:.3}")), (equator, "*A*^{−1/2}".to_owned())];
     let label = |text: &str, side| DirectLabel::new(text).at(At::Fraction(0.35)).side(side);
-    let low = half.iter().chain(&turn).map(|point| point.1).fold(f64::INFINITY, f64::min);
-    let high = half.iter().chain(&turn).map(|point| point.1).fold(0.0, f64::max);
+    // Both grow without bound at the separatrix: as far as a fiftieth of the way to it.
+    let shown = |point: &&(f64, f64)| point.0 >= separatrix + NEAR_SEPARATRIX * (equator - separatrix);
+    let all = || half.iter().chain(&turn).filter(shown).map(|point| point.1);
+    let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
     let margin = 0.05 * (equator - separatrix);
     Ok(Panel::new(
         Axis::new("*p*_*θ*").fixed(separatrix - margin, equator + margin).ticks_at(ticks),

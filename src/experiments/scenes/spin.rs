@@ -230,9 +230,8 @@ impl Spin {
                 let visible = copies.into_iter().filter(|copy| copy.iter().any(|(theta, _)| theta.abs() < HALF_WIDTH));
                 let tone = LIGHTEST * i as f64 / last;
                 let text = format!("wave front, *t* = {t}");
-                panel = panel.marks(
-                    visible.map(|points| Curve::new(Role::WaveFront, points).tone(tone).legend(text.clone())),
-                );
+                panel = panel
+                    .marks(visible.map(|points| Curve::new(Role::WaveFront, points).tone(tone).legend(text.clone())));
             }
         }
         Ok(panel)
@@ -330,12 +329,15 @@ impl Spin {
     /// # Errors
     /// A table of another form.
     pub fn values(&self, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
-        let mut values = counts(tables, &self.asked(&[
-            (Effect::ConjugateLocus, LOCUS),
-            (Effect::CutLocus, CUT),
-            (Effect::WaveFront, FRONT),
-            (Effect::Geodesics, GEODESICS),
-        ]));
+        let mut values = counts(
+            tables,
+            &self.asked(&[
+                (Effect::ConjugateLocus, LOCUS),
+                (Effect::CutLocus, CUT),
+                (Effect::WaveFront, FRONT),
+                (Effect::Geodesics, GEODESICS),
+            ]),
+        );
         values.extend(differences(tables, &self.routes())?);
         Ok(values)
     }
