@@ -547,7 +547,7 @@ mod tests {
             ("k = { from = 1.0, to = 1.5, count = 201 }", "k = 1.0", "scene.metric.spin.k"),
             ("[1e-6,", "[-1e-6,", "limit.p_theta[0]"),
             ("[1e-6, 1e-8", "[1e-6, 1e-6", "limit.p_theta[1]"),
-            ("\"conjugate-locus\",", "\"geodesics\",", "scene.effects[0]"),
+            ("\"conjugate-locus\",", "\"attitude\",", "scene.effects[0]"),
             ("p_theta = 1e-4 }", "p_theta = nan }", "scene.start.p_theta"),
         ] {
             let refused = params(from, to).unwrap_err();

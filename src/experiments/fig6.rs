@@ -661,7 +661,7 @@ mod tests {
             ("smallest_p_theta = 1e-4", "smallest_p_theta = 0", "types.smallest_p_theta"),
             ("switch_points_to = 1.5", "switch_points_to = 0.5", "types.switch_points_to"),
             ("t_end = 16.0", "t_end = -1", "example.t_end"),
-            ("\"geodesics\"", "\"cut-locus\"", "scene.effects[1]"),
+            ("\"geodesics\"", "\"attitude\"", "scene.effects[1]"),
         ] {
             let refused = params(from, to).unwrap_err();
             assert!(refused.contains(key), "{refused}");

@@ -299,7 +299,7 @@ mod tests {
             ("A = 1.5", "A = 2.5", "scene.metric.serret-andoyer.B"),
             ("to = 1.2", "to = 1.6", "scene.start.phi0"),
             ("[0.4, 0.2, 0.1", "[0.4, 0.39, 0.1", "limit.phi0[1]"),
-            ("\"conjugate-locus\"]", "\"geodesics\"]", "scene.effects[0]"),
+            ("\"conjugate-locus\"]", "\"attitude\"]", "scene.effects[0]"),
         ] {
             let refused = params(from, to).unwrap_err();
             assert!(refused.contains(key), "{refused}");
