@@ -252,7 +252,7 @@ impl Params {
             Some(StartMomenta::Branch(p_theta)) => BranchStart { p_theta: *p_theta }.validate()?,
             Some(StartMomenta::Swept(sweep)) => {
                 let key = "scene.start.p_theta";
-                sweep.validate_each(key, "p_theta >= 0 (the rest are mirror images)", |p| p >= 0.0 && p <= 1e12)?;
+                sweep.validate_each(key, "p_theta >= 0 (the rest are mirror images)", |p| (0.0..=1e12).contains(&p))?;
                 let values = sweep.values();
                 let ascending = values.len() >= 2 && values.windows(2).all(|pair| pair[0] < pair[1]);
                 Invalid::unless(ascending, key, format!("{} values", values.len()), "at least two values, ascending")?;

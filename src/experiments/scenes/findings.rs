@@ -24,12 +24,12 @@ fn tables_of<'a>(tables: &'a Tables, node: &str) -> Vec<(&'a str, &'a Table)> {
         .collect()
 }
 
-/// `points_NAME` for each table of these nodes: a name of Python's and TOML's, `=` and `.` in it as everywhere.
+/// `points_NODE_AXIS=VALUE` for each table of these nodes.
 pub fn counts(tables: &Tables, nodes: &[&str]) -> Vec<NamedValue> {
     let found = nodes.iter().flat_map(|node| tables_of(tables, node));
     found
         .map(|(name, table)| NamedValue {
-            name: format!("points_{}", name.replace('-', "_").replace('/', "_")),
+            name: format!("points_{}", name.replace(['-', '/'], "_")),
             value: table.rows() as f64,
             unit: "1".to_owned(),
             meaning: format!("points of {name}: {}", table.meaning()),

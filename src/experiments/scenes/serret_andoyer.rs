@@ -158,7 +158,13 @@ impl SerretAndoyer {
             }
             if self.asks(Effect::Potential) {
                 let potential = Potential { body, phi0, p_theta: self.p_theta.clone(), points: POINTS[2] };
-                nodes.add(POTENTIAL, axes, potential, &[], &[origins.as_slice(), &[family.clone()]].concat())?;
+                nodes.add(
+                    POTENTIAL,
+                    axes,
+                    potential,
+                    &[],
+                    &[origins.as_slice(), std::slice::from_ref(&family)].concat(),
+                )?;
             }
         }
         if self.asks(Effect::Curvature) {
