@@ -260,8 +260,9 @@ impl Spin {
             let places = [theta, theta - 2.0 * PI].into_iter().flat_map(|theta| [(theta, phi), (theta, PI - phi)]);
             let places = places.filter(|(theta, _)| theta.abs() < HALF_WIDTH).collect();
             panel = panel.mark(Points::new(Role::CuspPoint, places).legend("cusp, *p*_θ = 0"));
-            // With fronts there is no room for it: they fill the left half too.
-            if !self.asks(Effect::WaveFront) && branch.k < 1.0 {
+            // Fronts and the cut locus stand where the inset would; in a panel of half a page its labels have no room.
+            let has_room = !self.asks(Effect::WaveFront) && !self.asks(Effect::CutLocus) && self.shown().len() == 1;
+            if has_room && branch.k < 1.0 {
                 panel = panel.inset(cusp_inset(branch, Place::At(0.075, 0.29), (0.27, 0.42)));
             }
         }
