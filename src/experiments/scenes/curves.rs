@@ -32,3 +32,30 @@ pub fn mirrored(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 pub fn minus(x: f64) -> String {
     format!("{x}").replace('-', "−")
 }
+
+/// Characters of a number that a title has room for.
+const ROOM: usize = 8;
+
+/// `= 0.8`, or `≈ 1.07796` where the number itself is too long for a title; with a minus sign for print.
+pub fn equals(x: f64) -> String {
+    let exact = minus(x);
+    if exact.chars().count() <= ROOM { format!("= {exact}") } else { format!("≈ {}", minus_rounded(x)) }
+}
+
+/// A number with a minus sign for print, to five decimals where it is long.
+pub fn minus_rounded(x: f64) -> String {
+    let exact = minus(x);
+    if exact.chars().count() <= ROOM { exact } else { format!("{x:.5}").replace('-', "−") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_fit_a_title() {
+        assert_eq!((equals(0.8), equals(-0.75)), ("= 0.8".to_owned(), "= −0.75".to_owned()));
+        assert_eq!(equals(1.0779636363636362), "≈ 1.07796");
+        assert_eq!(minus_rounded(-1.0 / 3.0), "−0.33333");
+    }
+}

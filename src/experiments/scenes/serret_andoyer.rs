@@ -4,7 +4,7 @@
 //! (potentials). Nodes are those of Figs. 1 to 3 where parameters are equal. `p_θ < 0` is the mirror image `θ → −θ`, made here.
 
 use super::curvature::curvature_panel;
-use super::curves::{curves, minus, mirrored};
+use super::curves::{curves, equals, mirrored};
 use super::findings::{SecondRoute, agreement, counts, differences};
 use super::page::Block;
 use super::potential::{members, potential_panel};
@@ -196,7 +196,7 @@ impl SerretAndoyer {
         if self.asks(Effect::Potential) {
             for phi0 in self.shown() {
                 let members = members(tables.get(&name(POTENTIAL, phi0)).map_err(unread)?)?;
-                others.push(potential_panel(&members, phi0)?.title(format!("potentials, *φ*_0 = {}", minus(phi0))));
+                others.push(potential_panel(&members, phi0)?.title(format!("potentials, *φ*_0 {}", equals(phi0))));
             }
         }
         let columns = if others.len() == 1 { 1 } else { 2 };
@@ -211,7 +211,7 @@ impl SerretAndoyer {
             Axis::new("*θ*").unit("rad").fixed(-theta_end, theta_end).pi_ticks(),
             Axis::new("*φ*").fixed(-REACH * half_width, REACH * half_width).ticks_at(ticks),
         )
-        .title(format!("*φ*_0 = {}", minus(phi0)));
+        .title(format!("*φ*_0 {}", equals(phi0)));
         for edge in [-half_width, half_width] {
             panel = panel.mark(RuleLine::horizontal(Role::Reference, edge).legend("*φ* = ±*K*/*α*"));
         }

@@ -3,7 +3,7 @@
 //! One panel a value of k, in the chart (θ, φ), φ from the pole, θ and θ + 2π being the same; angles in radians. Nodes are those of Figs. 5, 7 and 8 where
 //! parameters are equal. Only `p_φ = −2`, `p_θ ≥ 0` is computed: the rest are mirror images, made here.
 
-use super::curves::{curves, mirrored};
+use super::curves::{curves, equals, minus_rounded, mirrored};
 use super::findings::{SecondRoute, agreement, counts, differences};
 use super::page::Block;
 use crate::contract::accuracy::Accuracy;
@@ -86,7 +86,7 @@ pub fn chosen<T: Clone>(all: &[T], most: usize) -> Vec<T> {
 
 /// A list for a caption: `0.8, 0.5 and 0.2`.
 pub fn listed(numbers: impl IntoIterator<Item = f64>) -> String {
-    let texts: Vec<String> = numbers.into_iter().map(super::curves::minus).collect();
+    let texts: Vec<String> = numbers.into_iter().map(minus_rounded).collect();
     match texts.split_last() {
         Some((last, before)) if !before.is_empty() => format!("{} and {last}", before.join(", ")),
         _ => texts.concat(),
@@ -189,7 +189,7 @@ impl Spin {
         let phi = Axis::new("*φ*").fixed(0.0, PI).pi_ticks();
         let mut panel = Panel::new(theta, phi)
             .equal()
-            .title(format!("*k* = {k}"))
+            .title(format!("*k* {}", equals(k)))
             .mark(RuleLine::horizontal(Role::Equator, FRAC_PI_2).legend("equator"))
             .mark(RuleLine::vertical(Role::Reference, PI).legend("*θ* = ±π, one meridian"))
             .mark(RuleLine::vertical(Role::Reference, -PI));
