@@ -68,7 +68,7 @@ pub struct AnyMetric {
     /// `{ A, B, C }`, inverse moments of inertia, `A < B < C`.
     #[serde(rename = "serret-andoyer", default, skip_serializing_if = "Option::is_none")]
     pub serret_andoyer: Option<Inertia>,
-    /// `{ k }`, the ratio of the couplings, 0.02 to 3; one node a value.
+    /// `{ k }`, the ratio of the couplings, 0.1 to 3; one node a value.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spin: Option<SpinParameters>,
     /// `{ A, B, C }`, inverse moments of inertia, `A < B < C`.
@@ -195,8 +195,8 @@ impl<'de> Deserialize<'de> for StartMomenta {
 
 /// Most values of one sweep.
 const MOST_VALUES: usize = 400;
-/// Fewest and largest k.
-const K: (f64, f64) = (0.02, 3.0);
+/// Smallest and largest k. Below 0.1 momenta below `e^(−π/k)` matter, and the second routes take minutes in double-double.
+const K: (f64, f64) = (0.1, 3.0);
 
 impl AnyMetric {
     /// The name of the only one given.
