@@ -13,7 +13,8 @@ use crate::contract::plan::{ConfigSource, Export, Plan};
 use crate::contract::value::{Findings, NamedValue};
 use crate::contract::work::Work;
 use crate::experiments::nodes::Nodes;
-use crate::plot::picture::Picture;
+use crate::experiments::scenes::more::Asked;
+use crate::plot::picture::{Picture, Width};
 use crate::table::{Table, Tables};
 use serde::de::DeserializeOwned;
 use serde::{Serialize, Serializer};
@@ -24,6 +25,9 @@ pub const PICTURE_FILE: &str = "picture.svg";
 pub const FINDINGS_FILE: &str = "findings.json";
 /// The name of the node that holds an experiment's values and claims.
 pub const FINDINGS_NODE: &str = "findings";
+
+/// Height of a picture without panels of its own: that of its legend (mm).
+const LEGEND_MM: f64 = 6.0;
 
 /// An experiment, as its module writes it.
 pub trait Definition: 'static {
@@ -44,7 +48,12 @@ pub trait Definition: 'static {
     /// Puts the command line's accuracy in place of the config's.
     fn set_accuracy(params: &mut Self::Params, accuracy: Accuracy);
 
-    /// Asks for nodes.
+    /// Which of the scene's effects are this experiment's own, and what else its metric is asked for: that is computed and drawn beside it.
+    fn asked(_: &Self::Params) -> Asked {
+        Asked::own()
+    }
+
+    /// Asks for nodes. This and what follows is left out where the scene calls for no effect of the experiment's own.
     ///
     /// # Errors
     /// Parameters that can't be turned into nodes.
@@ -143,7 +152,11 @@ fn plan<D: Definition>(id: &str, source: &ConfigSource, accuracy: Option<Accurac
     config.push(manifest::Part::Kind, "", manifest::Leaf::Text(D::ID.to_owned()));
 
     let mut nodes = Nodes::new(id);
-    D::nodes(&params, &mut nodes).map_err(defect)?;
+    let asked = D::asked(&params);
+    if asked.own {
+        D::nodes(&params, &mut nodes).map_err(defect)?;
+    }
+    asked.nodes(&mut nodes).map_err(defect)?;
     let (nodes, tables) = nodes.finish();
     let mut plan = Plan { id: id.to_owned(), config: source.clone(), nodes, exports: Vec::new() };
     for (_, address) in &tables {
@@ -211,7 +224,13 @@ impl<D: Definition> Compute for Picturing<D> {
 
     fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
         let tables = read_tables(inputs)?;
-        let mut picture = D::picture(&self.params, &tables)?;
+        let asked = D::asked(&self.params);
+        let own = if asked.own {
+            D::picture(&self.params, &tables)?
+        } else {
+            Picture::new(Width::Double, LEGEND_MM, D::TITLE)
+        };
+        let mut picture = asked.drawn_under(own, &tables)?;
         picture.metadata.push(("experiment".to_owned(), self.id.clone()));
         for line in manifest::describe(&self.params).map_err(|error| NodeError::new(error.to_string()))? {
             picture.metadata.push((format!("config {}", line.path), line.leaf.to_string()));
@@ -243,8 +262,16 @@ impl<D: Definition> Compute for Finding<D> {
 
     fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
         let tables = read_tables(inputs)?;
-        let findings =
-            Findings { values: D::values(&self.params, &tables)?, claims: D::claims(&self.params, &tables)? };
+        let asked = D::asked(&self.params);
+        let mut findings = if asked.own {
+            Findings { values: D::values(&self.params, &tables)?, claims: D::claims(&self.params, &tables)? }
+        } else {
+            Findings::default()
+        };
+        if let Some(more) = &asked.more {
+            findings.values.extend(more.values(&tables)?);
+        }
+        findings.claims.extend(asked.claims(&tables)?);
         for value in &findings.values {
             if !(value.value.is_finite() && value.error.is_finite()) {
                 return Err(NodeError::new(format!("value {} or its error is not finite", value.name)));
