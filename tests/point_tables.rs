@@ -1,7 +1,5 @@
 //! `polhode point --input` of many rows: the same bits for every number of threads, order of rows and set of instructions.
 
-#![expect(clippy::expect_used, reason = "helpers of tests")]
-
 mod support;
 
 use polhode::numerics::lanes::dispatch::Instructions;

@@ -12,7 +12,7 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, Phi0Start, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
+use crate::effects::scene::{Effect, Inertia, Phi0Start, SERRET_ANDOYER, Scene, SerretAndoyerMetric};
 use crate::effects::serret_andoyer::cusps::Cusps;
 use crate::plot::axis::Axis;
 use crate::plot::mark::Curve;
@@ -46,14 +46,24 @@ pub const EXPERIMENT: Experiment = Experiment::of::<Template>();
 // What the picture and the findings depend on: this file, and the rooms that draw and read.
 const PICTURE: Kind = picture_kind(
     "template-picture",
-    &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/template.rs", "plot", "table"],
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/template.rs",
+        "plot",
+        "table",
+    ],
 );
 const FINDINGS: Kind = findings_kind(
     "template-findings",
     &[
         "contract/claim.rs",
         "contract/value.rs",
-        "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
         "experiments/findings.rs",
         "experiments/template.rs",
         "table",

@@ -155,7 +155,7 @@ impl<S: Algebra, F: Flow<S>> Jet<S, F> {
             let series = self.state.get(i);
             let inverse = S::number(1.0) / *scales.get(i);
             let (a, b) = ((series[p] * inverse).size(), (series[p - 1] * inverse).size());
-            norms.probe = norms.probe + ((a - a) + (b - b));
+            norms.probe = norms.probe + (zero * a + zero * b);
             norms.last = norms.last.larger(a);
             norms.before = norms.before.larger(b);
         }
