@@ -11,6 +11,7 @@ use super::extremal::{Extremal, hypotenuse};
 use super::phase::State;
 use super::solve::{PhaseRoot, Quantity, SpinError, solve};
 use super::start::Start;
+use crate::numerics::pack::Pack;
 use crate::numerics::real::Real;
 
 /// A coordinate below this (in size) is rounding: near the meridian `r3` then has no sign of its own.
@@ -69,18 +70,53 @@ pub fn extremal(start: &Start) -> Extremal<f64> {
 pub fn first_conjugate_point(start: &Start) -> Result<ConjugatePoint, SpinError> {
     let extremal = extremal(start);
     let root = solve(&extremal, Quantity::Phase, 1.0)?;
-    let r = conjugate_position(start, &extremal, &root);
-    let turns = 1.0 + root.chi_turns + Real::floor(root.chi_rest / f64::PI);
-    Ok(ConjugatePoint {
+    Ok(point_at(start.mirror(), &extremal, &root).member(0))
+}
+
+/// [`ConjugatePoint`] over packs.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Points<S> {
+    t1: S,
+    theta: S,
+    phi: S,
+    r: [S; 3],
+    error: S,
+    iterations: S,
+    elliptic_calls: S,
+    crossings: S,
+}
+
+impl<S: Pack<Scalar = f64>> Points<S> {
+    /// The point of member `i`.
+    #[inline(always)]
+    pub(super) fn member(&self, i: usize) -> ConjugatePoint {
+        ConjugatePoint {
+            t1: self.t1.lane(i),
+            theta: self.theta.lane(i),
+            phi: self.phi.lane(i),
+            r: self.r.map(|x| x.lane(i)),
+            error: self.error.lane(i),
+            iterations: self.iterations.lane(i) as u32,
+            elliptic_calls: self.elliptic_calls.lane(i) as u32,
+            crossings: self.crossings.lane(i) as u32,
+        }
+    }
+}
+
+/// The first conjugate point for the root of Θ = π; `mirror` is −1 for `p_θ < 0`, else 1.
+#[inline(always)]
+pub(super) fn point_at<S: Pack>(mirror: S, extremal: &Extremal<S>, root: &PhaseRoot<S>) -> Points<S> {
+    let r = conjugate_position(mirror, extremal, root);
+    Points {
         t1: root.t,
-        theta: libm::atan2(r[2], r[0]),
-        phi: libm::atan2(hypotenuse(r[0].abs(), r[2].abs()), r[1]),
+        theta: r[2].atan2(r[0]),
+        phi: hypotenuse(r[0].abs(), r[2].abs()).atan2(r[1]),
         r,
         error: root.error,
         iterations: root.evaluations,
         elliptic_calls: root.elliptic_calls,
-        crossings: turns as u32,
-    })
+        crossings: S::ONE + root.chi_turns + (root.chi_rest / S::PI).floor(),
+    }
 }
 
 /// The j-th conjugate time, `j ≥ 1`: where `Θ = jπ`. Errors: [`SpinError`], also for `j = 0`.
@@ -95,7 +131,7 @@ pub fn conjugate_count(start: &Start, t: f64) -> Result<u32, SpinError> {
     let extremal = extremal(start);
     let (state, late) = state_at(&extremal, t)?;
     let phase = state.phase_beyond(0.0) + late * state.phase_rate(&extremal);
-    Ok((phase / f64::PI).floor().max(0.0) as u32)
+    Ok((phase / std::f64::consts::PI).floor().max(0.0) as u32)
 }
 
 /// The cut point (Lemma 4.4): the first return to the equator, `λ = π`.
@@ -112,8 +148,8 @@ pub fn cut_point(start: &Start) -> Result<CutPoint, SpinError> {
         theta: libm::atan2(r[2], r[0]),
         r,
         error: root.error,
-        iterations: root.evaluations,
-        elliptic_calls: root.elliptic_calls,
+        iterations: root.evaluations as u32,
+        elliptic_calls: root.elliptic_calls as u32,
     })
 }
 
@@ -167,7 +203,8 @@ fn state_at(extremal: &Extremal<f64>, t: f64) -> Result<(State<f64>, f64), SpinE
 }
 
 /// `r` for the angle λ whose sine and cosine are given.
-fn rotated(extremal: &Extremal<f64>, h: [f64; 3], sine: f64, cosine: f64) -> [f64; 3] {
+#[inline(always)]
+fn rotated<S: Pack>(extremal: &Extremal<S>, h: [S; 3], sine: S, cosine: S) -> [S; 3] {
     let rho = hypotenuse(h[0].abs(), h[2].abs());
     let (across, along) = (cosine / rho, sine / extremal.casimir);
     let h2 = h[1] / rho;
@@ -180,22 +217,23 @@ fn shifted(extremal: &Extremal<f64>, h: [f64; 3], v: [f64; 3], dt: f64) -> [f64;
     [v[0] - w3 * v[1], v[1] + w3 * v[0] - w1 * v[2], v[2] + w1 * v[1]]
 }
 
-fn conjugate_position(start: &Start, extremal: &Extremal<f64>, root: &PhaseRoot<f64>) -> [f64; 3] {
-    let k = extremal.k;
-    let half = Real::floor(root.chi_turns / 2.0);
-    let odd = root.chi_turns - 2.0 * half > 0.5;
-    // (−1)^(1 + chi_turns)
-    let sign = if odd { 1.0 } else { -1.0 };
-    let (sine, cosine) = libm::sincos(root.chi_rest);
-    let h = [2.0 * k * root.sin_beta, -2.0 * k * root.beta_rate, 2.0 * root.cos_beta];
-    let [r1, r2, r3] = rotated(extremal, h, sign * sine, sign * cosine);
-    // r3 is positive for p > 0, of order p³; below rounding its sign would put θ at −π instead of π.
-    let r3 = if r3.abs() <= COORDINATE_ROUNDING { r3.abs() } else { r3 };
-    let r3 = if extremal.p == 0.0 { 0.0 } else { r3 };
-    [r1, r2, positive_zero(start.mirror() * r3)]
+#[inline(always)]
+fn conjugate_position<S: Pack>(mirror: S, extremal: &Extremal<S>, root: &PhaseRoot<S>) -> [S; 3] {
+    let two_k = extremal.k + extremal.k;
+    let h = [two_k * root.sin_beta, -two_k * root.beta_rate, root.cos_beta + root.cos_beta];
+    // λ = π + χ.
+    let [r1, r2, r3] = rotated(extremal, h, -root.sin_chi, -root.cos_chi);
+    // r3 is positive for p > 0, of order p³; below rounding its sign would put θ at −π instead of π. The error of the time
+    // moves the point with a speed of at most max(1, 1/k).
+    let moved = root.error * root.t * S::ONE.max(S::ONE / extremal.k);
+    let rounding = S::from_f64(COORDINATE_ROUNDING).max(moved);
+    let r3 = S::select(r3.abs().at_most(rounding), r3.abs(), r3);
+    let r3 = S::select(extremal.p.equals(S::ZERO), S::ZERO, r3);
+    [r1, r2, positive_zero(mirror * r3)]
 }
 
 /// `−0.0` becomes `0.0`, so that `atan2` gives π and not −π.
-fn positive_zero(x: f64) -> f64 {
-    if x == 0.0 { 0.0 } else { x }
+#[inline(always)]
+fn positive_zero<S: Pack>(x: S) -> S {
+    S::select(x.equals(S::ZERO), S::ZERO, x)
 }

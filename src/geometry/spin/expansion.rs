@@ -9,6 +9,7 @@
 use super::extremal::{Extremal, Regime};
 use super::phase::State;
 use super::solve::Quantity;
+use crate::numerics::pack::{Mask, Pack};
 use crate::numerics::real::Real;
 
 /// Degree to which the phase is expanded. Eight needs about as much work as one Carlson function.
@@ -16,10 +17,15 @@ pub const DEGREE: usize = 8;
 const TERMS: usize = DEGREE + 1;
 /// Fraction of the estimated radius of convergence within which a root of the series is believed.
 const TRUSTED_FRACTION: f64 = 0.5;
-/// A coefficient that exceeds the one expected for the radius by less than this moves the radius by a few percent.
-const WITHIN: f64 = 1.5;
 /// Newton and bisection steps on the series; a triple root takes about 80 (each gains a third), others five.
 const MOST_STEPS: usize = 100;
+/// Newton steps of the short way; four are usual.
+const MOST_NEWTON_STEPS: usize = 8;
+/// Longest step of the short way, in the argument u. Where χ is nearly constant the coefficients kept can be far below those to
+/// come (a tiny multiple of e^2u), and the radius estimated from them far too large; the pendulum itself changes on a scale of 1.
+const LONGEST_STEP: f64 = 0.5;
+/// A relative step below this, 2^-26, is Newton's last but one.
+const AT_REST: f64 = 1.490_116_119_384_765_6e-8;
 
 /// Taylor coefficients about an instant, in `y = rate·(t − t0)`.
 #[derive(Debug, Clone, Copy)]
@@ -28,20 +34,25 @@ pub struct Expansion<S> {
     pub target: [S; TERMS],
     /// χ, less the half turns of the state.
     pub chi: [S; TERMS],
+    /// sin χ.
+    pub sin_chi: [S; TERMS],
+    /// cos χ.
+    pub cos_chi: [S; TERMS],
     /// sin β.
     pub sin_beta: [S; TERMS],
     /// cos β.
     pub cos_beta: [S; TERMS],
     /// dβ/du.
     pub beta_rate: [S; TERMS],
+    /// The rate of λ: the scale of all coefficients.
+    pub scale: S,
     /// Estimated radius of convergence.
     pub radius: S,
-    /// Size of the coefficient of degree [`DEGREE`] that goes with the radius: at least its own size.
-    last: S,
 }
 
 /// `Σ a[i] b[n−i]`.
-fn product<S: Real>(a: &[S; TERMS], b: &[S; TERMS], n: usize) -> S {
+#[inline(always)]
+fn product<S: Pack>(a: &[S; TERMS], b: &[S; TERMS], n: usize) -> S {
     // Two sums, so that one addition need not wait for the other.
     let (mut even, mut odd) = (a[0] * b[n], S::ZERO);
     let mut i = 1;
@@ -57,7 +68,8 @@ fn product<S: Real>(a: &[S; TERMS], b: &[S; TERMS], n: usize) -> S {
 }
 
 /// The value of a series.
-pub fn value<S: Real>(series: &[S; TERMS], y: S) -> S {
+#[inline(always)]
+pub fn value<S: Pack>(series: &[S; TERMS], y: S) -> S {
     let mut sum = series[DEGREE];
     for i in (0..DEGREE).rev() {
         sum = sum * y + series[i];
@@ -65,37 +77,9 @@ pub fn value<S: Real>(series: &[S; TERMS], y: S) -> S {
     sum
 }
 
-/// The radius of convergence ρ for which no coefficient given (of degrees 8, 7 and 6, the highest first) is above `ρ^−n`,
-/// and `ρ^−8`. One coefficient alone says too little: some are small by chance, and a step that is believed to
-/// reach 30 times as far as it does costs two digits.
-fn radius_and_last<S: Real>(sizes: [S; 3]) -> (S, S) {
-    let eighth_root = |x: S| x.sqrt().sqrt().sqrt();
-    let largest = sizes[0].max(sizes[1]).max(sizes[2]);
-    if largest == S::ZERO {
-        return (S::ONE, S::ZERO);
-    }
-    // An upper bound to start with: the highest coefficient, unless it is so small that it certainly says nothing.
-    let mut radius = eighth_root(S::ONE / sizes[0].max(largest * S::EPSILON));
-    for (skipped, &size) in sizes.iter().enumerate().skip(1) {
-        // f = size·ρⁿ above one: ρ is too large by f^(1/n). The eighth root, three times, takes f to f^(1/64) or less.
-        for _ in 0..3 {
-            let mut excess = size;
-            for _ in 0..DEGREE - skipped {
-                excess *= radius;
-            }
-            if excess <= S::from_f64(WITHIN) {
-                break;
-            }
-            radius /= eighth_root(excess);
-        }
-    }
-    let square = radius * radius;
-    let fourth = square * square;
-    (radius, S::ONE / (fourth * fourth))
-}
-
 /// The derivative of a series.
-pub fn slope<S: Real>(series: &[S; TERMS], y: S) -> S {
+#[inline(always)]
+pub fn slope<S: Pack>(series: &[S; TERMS], y: S) -> S {
     let mut sum = S::from_f64(DEGREE as f64) * series[DEGREE];
     for i in (1..DEGREE).rev() {
         sum = sum * y + S::from_f64(i as f64) * series[i];
@@ -103,8 +87,9 @@ pub fn slope<S: Real>(series: &[S; TERMS], y: S) -> S {
     sum
 }
 
-impl<S: Real> Expansion<S> {
+impl<S: Pack> Expansion<S> {
     /// The series about a state.
+    #[inline(always)]
     pub fn new(extremal: &Extremal<S>, state: &State<S>, quantity: Quantity, turns: S) -> Self {
         let (one, two) = (S::ONE, S::from_f64(2.0));
         let k = extremal.k;
@@ -115,7 +100,7 @@ impl<S: Real> Expansion<S> {
             Regime::Round => S::ZERO,
             _ => {
                 let ratio = extremal.anisotropy / rate;
-                if k < one { -(ratio * ratio) } else { ratio * ratio }
+                S::select(k.less(one), -(ratio * ratio), ratio * ratio)
             }
         };
         let zero = [S::ZERO; TERMS];
@@ -132,16 +117,8 @@ impl<S: Real> Expansion<S> {
         cx[0] = state.b_q / length;
         let inverse = one / p[0];
         let weight = half_g / (k * k);
-        let mut result = Self {
-            target: zero,
-            chi: zero,
-            sin_beta: zero,
-            cos_beta: zero,
-            beta_rate: zero,
-            radius: one,
-            last: S::ZERO,
-        };
-        result.chi[0] = state.chi_rest;
+        let (mut target, mut chi) = (zero, zero);
+        chi[0] = state.chi_rest;
         for n in 0..DEGREE {
             let next = one / S::from_f64((n + 1) as f64);
             e[n] = product(&s, &c, n);
@@ -149,8 +126,8 @@ impl<S: Real> Expansion<S> {
             q[n] = if n == 0 { inverse } else { -(product(&p, &q, n) * inverse) };
             phase_rate[n] = weight * product(&p, &square, n);
             chi_rate[n] = half_g * q[n] - phase_rate[n];
-            result.target[n + 1] = phase_rate[n] * next;
-            result.chi[n + 1] = chi_rate[n] * next;
+            target[n + 1] = phase_rate[n] * next;
+            chi[n + 1] = chi_rate[n] * next;
             s[n + 1] = product(&c, &v, n) * next;
             c[n + 1] = -(product(&s, &v, n) * next);
             v[n + 1] = -(stiffness * e[n] * next);
@@ -159,23 +136,67 @@ impl<S: Real> Expansion<S> {
             cx[n + 1] = -(product(&sx, &chi_rate, n) * next);
         }
         // Θ and χ have the same singularities; the scale of both is λ's rate.
+        // Three coefficients, since some are small by chance and by symmetry every other one vanishes at a quarter turn: a step
+        // believed to reach 30 times as far as it does costs two digits. Of the last but one the exponent 1/7 is rounded up to
+        // 5/32 or down to 9/64, of the one before 1/6 to 3/16 or 5/32, so that the radius errs on the small side.
         let scale = half_g * inverse + weight * p[0];
-        let size = |n: usize| (result.target[n].abs() + result.chi[n].abs()) / scale;
-        (result.radius, result.last) = radius_and_last([size(DEGREE), size(DEGREE - 1), size(DEGREE - 2)]);
-        result.last *= scale;
+        let size = [0, 1, 2].map(|back| (target[DEGREE - back].abs() + chi[DEGREE - back].abs()) / scale);
+        let roots = [size[1].sqrt().sqrt(), size[2].sqrt()];
+        let before = size[1] * roots[0].max(roots[0].sqrt());
+        let third = size[2] * roots[1].max(roots[1].sqrt());
+        let largest = size[0].max(before).max(third);
+        let radius = S::select(largest.more(S::ZERO), one / largest.sqrt().sqrt().sqrt(), one);
         match quantity {
-            Quantity::Phase => result.target[0] = state.phase_beyond(turns),
+            Quantity::Phase => target[0] = state.phase_beyond(turns),
             Quantity::Lambda => {
-                for (sum, chi) in result.target.iter_mut().zip(result.chi) {
+                for (sum, chi) in target.iter_mut().zip(chi) {
                     *sum += chi;
                 }
-                result.target[0] = state.lambda_beyond(turns);
+                target[0] = state.lambda_beyond(turns);
             }
         }
-        (result.sin_beta, result.cos_beta, result.beta_rate) = (s, c, v);
-        result
+        Self { target, chi, sin_chi: sx, cos_chi: cx, sin_beta: s, cos_beta: c, beta_rate: v, scale, radius }
     }
 
+    /// The root `y` of `target(y) = 0` by Newton's iteration from the instant itself, kept within the trusted part of the
+    /// disc of convergence, and whether it has come to rest there.
+    ///
+    /// At rest: the last step is below 2^-26 of y, so that the next would be below rounding, and the slope is not much
+    /// smaller than at the instant itself (a triple root is near where it is).
+    #[inline(always)]
+    pub fn near_root(&self) -> (S, S::Mask) {
+        let trusted = (self.radius * S::from_f64(TRUSTED_FRACTION)).min(S::from_f64(LONGEST_STEP));
+        let mut y = S::ZERO;
+        let mut slope_there = self.target[1];
+        let mut active = S::Mask::splat(true);
+        for _ in 0..MOST_NEWTON_STEPS {
+            let slope = slope(&self.target, y);
+            let next = (y - value(&self.target, y) / slope).max(-trusted).min(trusted);
+            let moved = (next - y).abs();
+            slope_there = S::select(active, slope, slope_there);
+            y = S::select(active, next, y);
+            active = active.and(moved.more(S::from_f64(AT_REST) * y.abs()));
+            if !active.any() {
+                break;
+            }
+        }
+        let steep = slope_there.more(S::from_f64(0.25) * self.target[1]);
+        // At the end of the trusted part it rests because it is held there.
+        (y, active.not().and(steep).and(y.abs().less(trusted)))
+    }
+
+    /// Bound of what the series omits at `y`: the geometric tail after its last term.
+    #[inline(always)]
+    pub fn omitted(&self, y: S) -> S {
+        let ratio = y.abs() / self.radius;
+        let far = ratio.at_least(S::from_f64(TRUSTED_FRACTION));
+        let (square, rest) = (ratio * ratio, S::ONE - ratio);
+        let eighth = (square * square) * (square * square);
+        S::select(far, S::ONE, self.scale * eighth * ratio / rest)
+    }
+}
+
+impl<S: Real> Expansion<S> {
     /// The root `y` of `target(y) = offset` within `[low, high]` and within the trusted part of the disc of convergence.
     /// Where the series does not reach the offset there, the end of that interval towards the root.
     pub fn root(&self, offset: S, low: S, high: S) -> S {
@@ -223,18 +244,5 @@ impl<S: Real> Expansion<S> {
             }
         }
         y
-    }
-
-    /// Bound of what the series omits at `y`: the geometric tail after its last term.
-    pub fn omitted(&self, y: S) -> S {
-        let ratio = y.abs() / self.radius;
-        if ratio >= S::from_f64(TRUSTED_FRACTION) {
-            return S::ONE;
-        }
-        let mut power = S::ONE;
-        for _ in 0..DEGREE {
-            power *= y.abs();
-        }
-        self.last * power * ratio / (S::ONE - ratio)
     }
 }

@@ -19,7 +19,8 @@
 //! Everything is for `p = |p_θ|`; the mirror image is taken at the end, by the callers in `conjugate`.
 
 use super::landen::Landen;
-use crate::numerics::elliptic::carlson::{r_d, r_f};
+use crate::numerics::elliptic::carlson::r_f_and_r_d;
+use crate::numerics::pack::Pack;
 use crate::numerics::real::Real;
 
 /// Below this `m'` (the square of a modulus, near the end of the normal numbers) a rotating extremal with `k < 1` is
@@ -28,8 +29,10 @@ const SMALLEST_COMPLEMENTARY_PARAMETER: f64 = 1e-290;
 /// Below this `m` the terms of the half-turn excess that carry it, `m ln(1/m)` at most, are far below rounding, and
 /// their factors would leave the finite numbers.
 const SMALLEST_PARAMETER: f64 = 1e-250;
-/// Carlson functions that the constants of an elliptic regime need.
-pub const CALLS_FOR_CONSTANTS: u32 = 4;
+/// Carlson functions that the constants of an elliptic regime need (complete integrals come by means, see `landen`).
+pub const CALLS_FOR_CONSTANTS: u32 = 2;
+/// For `k < 1` and above this `p` the extremal is not replaced by the meridian: `m' > (p/2)²/2`.
+const CERTAINLY_ROTATING: f64 = 1e-100;
 /// Above this ratio `p/q` the difference `p² − q²` is taken as `p²(1 − (q/p)²)`, which then loses nothing.
 const FAR_FROM_SEPARATRIX: f64 = 4.0;
 
@@ -52,7 +55,7 @@ pub enum Regime {
 
 /// Constants of an extremal that has elliptic parameter `0 ≤ m < 1`.
 #[derive(Debug, Clone, Copy)]
-pub struct Elliptic<S> {
+pub struct Elliptic<S: Pack> {
     /// The parameter.
     pub m: S,
     /// The complementary parameter, accurate by itself.
@@ -71,9 +74,46 @@ pub struct Elliptic<S> {
     pub landen: Landen<S>,
 }
 
+impl Regime {
+    /// The regime of anisotropy `k > 0` and covector `p = |p_θ| ≥ 0`.
+    pub fn of<S: Real>(k: S, p: S) -> Self {
+        let excess = (k - S::ONE) * (k + S::ONE);
+        if k == S::ONE {
+            return Self::Round;
+        }
+        if k < S::ONE {
+            // m' = b²/(b² + l²), and b/l ≥ p/2: only a tiny p needs the quotient.
+            if p > S::from_f64(CERTAINLY_ROTATING) {
+                return Self::RotatingBelow;
+            }
+            let b = p / (S::from_f64(2.0) * k);
+            let sine = b / hypotenuse(b, excess.abs().sqrt() / k);
+            let tiny = sine * sine < S::from_f64(SMALLEST_COMPLEMENTARY_PARAMETER);
+            return if tiny { Self::Meridian } else { Self::RotatingBelow };
+        }
+        let q = S::from_f64(2.0) * excess.sqrt();
+        if p > S::from_f64(FAR_FROM_SEPARATRIX) * q {
+            return Self::RotatingAbove;
+        }
+        let gap = separatrix_gap(k, p);
+        if gap == S::ZERO {
+            Self::Separatrix
+        } else if gap < S::ZERO {
+            Self::RotatingAbove
+        } else {
+            Self::Oscillating
+        }
+    }
+
+    /// Whether elliptic functions describe it.
+    pub fn is_elliptic(self) -> bool {
+        matches!(self, Self::RotatingBelow | Self::RotatingAbove | Self::Oscillating)
+    }
+}
+
 /// Constants of one extremal.
 #[derive(Debug, Clone, Copy)]
-pub struct Extremal<S> {
+pub struct Extremal<S: Pack> {
     /// The anisotropy.
     pub k: S,
     /// `|p_θ|`.
@@ -93,17 +133,16 @@ pub struct Extremal<S> {
 }
 
 /// `√(a² + b²)` without overflow, for `a, b ≥ 0`.
-pub(super) fn hypotenuse<S: Real>(a: S, b: S) -> S {
+#[inline(always)]
+pub(super) fn hypotenuse<S: Pack>(a: S, b: S) -> S {
     let (large, small) = (a.max(b), a.min(b));
-    if large == S::ZERO {
-        return S::ZERO;
-    }
     let ratio = small / large;
-    large * (S::ONE + ratio * ratio).sqrt()
+    S::select(large.equals(S::ZERO), S::ZERO, large * (S::ONE + ratio * ratio).sqrt())
 }
 
 /// `a²` as an unevaluated sum of two scalars (Dekker's product after Veltkamp's splitting; exact in `f64`).
-fn exact_square<S: Real>(a: S) -> (S, S) {
+#[inline(always)]
+fn exact_square<S: Pack>(a: S) -> (S, S) {
     let two = S::from_f64(2.0);
     let factor = two / S::EPSILON.sqrt() + S::ONE;
     let scaled = factor * a;
@@ -114,14 +153,16 @@ fn exact_square<S: Real>(a: S) -> (S, S) {
 }
 
 /// `a + b` as an unevaluated sum of two scalars (Knuth).
-fn exact_sum<S: Real>(a: S, b: S) -> (S, S) {
+#[inline(always)]
+fn exact_sum<S: Pack>(a: S, b: S) -> (S, S) {
     let sum = a + b;
     let part = sum - a;
     (sum, (a - (sum - part)) + (b - part))
 }
 
 /// `q² − p² = 4(k² − 1) − p²`, relatively accurate however close `p` is to `q`.
-fn separatrix_gap<S: Real>(k: S, p: S) -> S {
+#[inline(always)]
+fn separatrix_gap<S: Pack>(k: S, p: S) -> S {
     let (square, square_low) = exact_square(k + k);
     let (momentum, momentum_low) = exact_square(p);
     let (first, first_low) = exact_sum(square, S::from_f64(-4.0));
@@ -133,70 +174,63 @@ impl<S: Real> Extremal<S> {
     /// The constants for anisotropy `k > 0` and covector `p = |p_θ| ≥ 0`, both finite and in the ranges of
     /// [`super::start::Start`]. Guarantee: every constant to a few ε relative.
     pub fn new(k: S, p: S) -> Self {
+        Self::in_regime(Regime::of(k, p), k, p)
+    }
+}
+
+impl<S: Pack> Extremal<S> {
+    /// The constants for members that all are in one regime (as [`Regime::of`] says).
+    #[inline(always)]
+    pub fn in_regime(regime: Regime, k: S, p: S) -> Self {
         let (one, two) = (S::ONE, S::from_f64(2.0));
         let casimir = hypotenuse(p, two);
         let b = p / (two * k);
         let excess = (k - one) * (k + one);
         let anisotropy = excess.abs().sqrt() / k;
-        let mut extremal =
-            Self { k, p, casimir, regime: Regime::Round, rate: casimir / two, b, anisotropy, elliptic: None };
-        if k == one {
-            return extremal;
-        }
-        if k < one {
-            let c0 = hypotenuse(b, anisotropy);
-            let (sine, cosine) = (b / c0, anisotropy / c0);
-            let complementary = sine * sine;
-            if complementary < S::from_f64(SMALLEST_COMPLEMENTARY_PARAMETER) {
-                extremal.regime = Regime::Meridian;
+        let mut extremal = Self { k, p, casimir, regime, rate: casimir / two, b, anisotropy, elliptic: None };
+        let (m, complementary, n, one_minus_n);
+        match regime {
+            Regime::Round => return extremal,
+            Regime::Meridian | Regime::Separatrix => {
                 extremal.rate = anisotropy;
                 return extremal;
             }
-            extremal.regime = Regime::RotatingBelow;
-            extremal.rate = c0;
-            let one_minus_n = k * k * complementary;
-            extremal.set_elliptic(cosine * cosine, complementary, one - one_minus_n, one_minus_n);
-            return extremal;
+            Regime::RotatingBelow => {
+                let c0 = hypotenuse(b, anisotropy);
+                let (sine, cosine) = (b / c0, anisotropy / c0);
+                extremal.rate = c0;
+                m = cosine * cosine;
+                complementary = sine * sine;
+                one_minus_n = k * k * complementary;
+                n = one - one_minus_n;
+            }
+            Regime::RotatingAbove => {
+                let q = two * excess.sqrt();
+                let (ratio, square) = (q / p, p * p);
+                let far = p.more(S::from_f64(FAR_FROM_SEPARATRIX) * q);
+                extremal.rate = b;
+                m = S::select(far, ratio * ratio, S::from_f64(4.0) * excess / square);
+                complementary = S::select(far, one - ratio * ratio, -separatrix_gap(k, p) / square);
+                one_minus_n = complementary / (k * k);
+                n = one - one_minus_n;
+            }
+            Regime::Oscillating => {
+                let four = S::from_f64(4.0);
+                let q_squared = four * excess;
+                extremal.rate = anisotropy;
+                m = p * p / q_squared;
+                complementary = separatrix_gap(k, p) / q_squared;
+                let casimir_squared = casimir * casimir;
+                n = (p * p + four * m) / casimir_squared;
+                one_minus_n = four * complementary / casimir_squared;
+            }
         }
-        let q = two * excess.sqrt();
-        if p > S::from_f64(FAR_FROM_SEPARATRIX) * q {
-            let ratio = q / p;
-            extremal.set_rotating_above(ratio * ratio, one - ratio * ratio);
-            return extremal;
-        }
-        let gap = separatrix_gap(k, p);
-        let q_squared = S::from_f64(4.0) * excess;
-        extremal.rate = anisotropy;
-        if gap == S::ZERO {
-            extremal.regime = Regime::Separatrix;
-        } else if gap < S::ZERO {
-            extremal.set_rotating_above(q_squared / (p * p), -gap / (p * p));
-        } else {
-            extremal.regime = Regime::Oscillating;
-            let m = p * p / q_squared;
-            let complementary = gap / q_squared;
-            let casimir_squared = casimir * casimir;
-            let four = S::from_f64(4.0);
-            let n = (p * p + four * m) / casimir_squared;
-            extremal.set_elliptic(m, complementary, n, four * complementary / casimir_squared);
-        }
-        extremal
-    }
-
-    fn set_rotating_above(&mut self, mu: S, complementary: S) {
-        self.regime = Regime::RotatingAbove;
-        self.rate = self.b;
-        let one_minus_n = complementary / (self.k * self.k);
-        self.set_elliptic(mu, complementary, S::ONE - one_minus_n, one_minus_n);
-    }
-
-    fn set_elliptic(&mut self, m: S, complementary: S, n: S, one_minus_n: S) {
-        let third = S::ONE / S::from_f64(3.0);
         let landen = Landen::new(complementary);
         let quarter = landen.quarter_period();
-        let quarter_z = m * third * r_d(S::ZERO, S::ONE, complementary);
-        let excess = self.half_turn_excess(m, complementary, quarter);
-        self.elliptic = Some(Elliptic { m, complementary, one_minus_n, n, quarter, quarter_z, excess, landen });
+        let quarter_z = m * landen.cosine_integral / complementary;
+        let excess = extremal.half_turn_excess(m, complementary, quarter, m * landen.sine_integral);
+        extremal.elliptic = Some(Elliptic { m, complementary, one_minus_n, n, quarter, quarter_z, excess, landen });
+        extremal
     }
 
     /// `2λ(K) − π`, as accurate relative to its largest term as `λ(K) − π/2` is small.
@@ -210,9 +244,10 @@ impl<S: Real> Extremal<S> {
     ///                                                            2/G, 2/(G w)      (k > 1, oscillating)
     /// ```
     ///
-    /// `a − sin ε` and `sin ε − E(ε|m')` are computed without subtracting, since for large `k` and for large `p`
+    /// `deficit` is `K − E`. `a − sin ε` and `sin ε − E(ε|m')` are computed without subtracting, since for large `k` and for large `p`
     /// everything else would cancel.
-    fn half_turn_excess(&self, m: S, complementary: S, quarter: S) -> S {
+    #[inline(always)]
+    fn half_turn_excess(&self, m: S, complementary: S, quarter: S, deficit: S) -> S {
         let (one, two) = (S::ONE, S::from_f64(2.0));
         let third = one / S::from_f64(3.0);
         let (k, p, g) = (self.k, self.p, self.casimir);
@@ -227,20 +262,19 @@ impl<S: Real> Extremal<S> {
             }
             _ => (two / g, p / g, two / (g * k * k * self.anisotropy * (one + self.anisotropy))),
         };
-        if m < S::from_f64(SMALLEST_PARAMETER) {
-            return two * quarter * lead;
-        }
         let delta2 = cosine * cosine + m * sine * sine;
         let delta = delta2.sqrt();
-        let first = sine * r_f(cosine * cosine, delta2, one);
+        let (first, second) = r_f_and_r_d(cosine * cosine, one, delta2);
+        let first = sine * first;
         let cubed = sine * sine * sine;
-        let second = first + complementary * third * cubed * r_d(cosine * cosine, one, delta2);
+        let second = first + complementary * third * cubed * second;
         let direct = sine * (sine * sine / (delta + cosine) + cosine) / delta;
-        let deficit = m * third * r_d(S::ZERO, complementary, one); // K − E
-        two * (quarter * (lead + m * (direct - second)) + deficit * first)
+        let excess = two * (quarter * (lead + m * (direct - second)) + deficit * first);
+        S::select(m.less(S::from_f64(SMALLEST_PARAMETER)), two * quarter * lead, excess)
     }
 
     /// The part of λ that is linear in the integrals: `α u + β Π(N; u | m)`, both weights positive.
+    #[inline(always)]
     pub(super) fn secular_lambda(&self, elliptic: &Elliptic<S>, u: S, pi: S) -> S {
         let two = S::from_f64(2.0);
         let (k, g) = (self.k, self.casimir);
@@ -252,6 +286,7 @@ impl<S: Real> Extremal<S> {
     }
 
     /// `cos²β + k² sin²β`, the square of half the momentum's distance from the second axis.
+    #[inline(always)]
     pub(super) fn ellipse(&self, sine: S, cosine: S) -> S {
         let scaled = self.k * sine;
         cosine * cosine + scaled * scaled
@@ -265,7 +300,7 @@ mod tests {
     /// Oracle: mpmath at 120 digits, `4(k² − 1) − p²` for these doubles, `p` the double next to `2√(k² − 1)`.
     #[test]
     fn the_gap_to_the_separatrix_keeps_its_digits() {
-        let gaps = [
+        let gaps: [(f64, f64, f64); 3] = [
             (1.2, 1.32664991614216, -8.561_142_061_573_562_282_2e-16),
             (3.0, 5.656854249492381, -4.374_917_540_903_630_849_1e-15),
             (1.0000001, 0.0008944272136217087, 6.887_124_752_641_803_109_5e-23),

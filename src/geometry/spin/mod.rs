@@ -14,6 +14,7 @@
 //! | `expansion` | the Taylor series of the phase about an instant |
 //! | `solve` | the one root of Θ = target, from a bracket that quarter periods give |
 //! | `conjugate` | first conjugate point, conjugate times, cut point, position: the public functions |
+//! | `lanes` | first conjugate points of many starts, eight at a time |
 //! | `lift` | the lift of the flow to R³ × so(3)*: the second route, by integration |
 //! | `limits` | the limits p_θ → 0 and p_θ → ∞ and the round case k = 1 |
 //! | `switch_points` | the values of k at which the conjugate point crosses a pole or the equator (Fig. 4) |
@@ -25,6 +26,7 @@ pub mod conjugate;
 pub mod expansion;
 pub mod extremal;
 pub mod landen;
+pub mod lanes;
 pub mod lift;
 pub mod lift_lanes;
 pub mod limits;

@@ -19,8 +19,11 @@
 
 use super::extremal::{Elliptic, Extremal, Regime};
 use super::landen::Amplitude;
-use crate::numerics::elliptic::carlson::{r_d, r_f, r_j};
-use crate::numerics::real::Real;
+use crate::numerics::elliptic::carlson_together::r_f_r_d_and_r_j;
+use crate::numerics::pack::{Mask, Pack};
+
+/// Carlson functions that a state needs in the elliptic regimes.
+pub const CALLS_FOR_STATE: u32 = 3;
 
 /// Rounding of the excess of a half turn beyond the two ε of `lambda_rest`, in ε of it: together at most 7.1 in 40 000
 /// random extremals with k from 0.1 to 10.
@@ -65,23 +68,27 @@ pub struct State<S> {
     pub elliptic_calls: u32,
 }
 
-impl<S: Real> State<S> {
+impl<S: Pack> State<S> {
     /// λ.
+    #[inline(always)]
     pub fn lambda(&self) -> S {
         self.half_turns * S::PI + self.lambda_rest
     }
 
     /// `Θ − turns·π`, where the whole half turns of λ and χ cancel exactly.
+    #[inline(always)]
     pub fn phase_beyond(&self, turns: S) -> S {
         (self.half_turns - self.chi_turns - turns) * S::PI + (self.lambda_rest - self.chi_rest)
     }
 
     /// `λ − turns·π`.
+    #[inline(always)]
     pub fn lambda_beyond(&self, turns: S) -> S {
         (self.half_turns - turns) * S::PI + self.lambda_rest
     }
 
     /// A bound of the rounding error of `phase_beyond(turns)`: twice ε of each of its terms, and what these hide.
+    #[inline(always)]
     pub fn phase_rounding(&self, turns: S) -> S {
         let whole = (self.half_turns - self.chi_turns - turns).abs() * S::PI;
         S::from_f64(2.0) * S::EPSILON * (whole + self.lambda_rest.abs() + self.chi_rest.abs())
@@ -90,6 +97,7 @@ impl<S: Real> State<S> {
     }
 
     /// `dΘ/dt = (G/2k²) P sin²χ`.
+    #[inline(always)]
     pub fn phase_rate(&self, extremal: &Extremal<S>) -> S {
         let square = self.a * self.a / (self.a * self.a + self.b_q * self.b_q);
         let scale = extremal.casimir / (S::from_f64(2.0) * extremal.k * extremal.k);
@@ -97,12 +105,14 @@ impl<S: Real> State<S> {
     }
 
     /// The same for `lambda_beyond(turns)`.
+    #[inline(always)]
     pub fn lambda_rounding(&self, turns: S) -> S {
         S::from_f64(2.0) * S::EPSILON * ((self.half_turns - turns).abs() * S::PI + self.lambda_rest.abs())
             + self.turns_rounding
     }
 
     /// The momentum `h = (2k sin β, −2k β', 2 cos β)`.
+    #[inline(always)]
     pub fn momentum(&self, k: S) -> [S; 3] {
         let two = S::from_f64(2.0);
         [two * k * self.sin_beta, -(two * k * self.beta_rate), two * self.cos_beta]
@@ -122,16 +132,20 @@ pub struct QuarterPhase<S> {
     pub lambda_rate: S,
 }
 
-impl<S: Real> Extremal<S> {
+impl<S: Pack> Extremal<S> {
     /// The state near time `t ≥ 0`: exactly at `t` in the elementary regimes; else at the time, returned in the state,
     /// of an amplitude that differs from that of `t` by a few rounding errors.
     pub fn state_near(&self, t: S) -> State<S> {
         match &self.elliptic {
-            Some(elliptic) => {
-                self.state_at_amplitude(elliptic, elliptic.landen.amplitude(self.rate * t, elliptic.quarter))
-            }
+            Some(elliptic) => self.elliptic_state(elliptic, t),
             None => self.elementary_state(t),
         }
+    }
+
+    /// [`Self::state_near`] in the elliptic regimes.
+    #[inline(always)]
+    pub fn elliptic_state(&self, elliptic: &Elliptic<S>, t: S) -> State<S> {
+        self.state_at_amplitude(elliptic, elliptic.landen.amplitude(self.rate * t, elliptic.quarter))
     }
 
     fn elementary_state(&self, t: S) -> State<S> {
@@ -193,6 +207,7 @@ impl<S: Real> Extremal<S> {
         }
     }
 
+    #[inline(always)]
     fn state_at_amplitude(&self, elliptic: &Elliptic<S>, amplitude: Amplitude<S>) -> State<S> {
         let (one, two) = (S::ONE, S::from_f64(2.0));
         let third = one / S::from_f64(3.0);
@@ -204,10 +219,12 @@ impl<S: Real> Extremal<S> {
         let d2 = c2 + complementary * s2;
         let d = d2.sqrt();
         let cubed = s * s2;
-        let f = s * r_f(c2, d2, one);
+        // c² ≤ c² + (1 − N)s² ≤ d² ≤ 1: the third kind is in its circular case, N ≥ m.
+        let (first, second, third_kind) = r_f_r_d_and_r_j(c2, c2 + elliptic.one_minus_n * s2, d2, one);
+        let f = s * first;
         let u = f + turns * elliptic.quarter;
-        let z = m * third * cubed * r_d(c2, one, d2) + turns * elliptic.quarter_z;
-        let pi = f + elliptic.n * third * cubed * r_j(c2, d2, one, c2 + elliptic.one_minus_n * s2);
+        let z = m * third * cubed * second + turns * elliptic.quarter_z;
+        let pi = f + elliptic.n * third * cubed * third_kind;
         let secular = self.secular_lambda(elliptic, f, pi) + half_turns * elliptic.excess;
         let t = u / self.rate;
         let (lambda, sin_beta, cos_beta, beta_rate, a, b_q, chi, delta_beta, delta_beta_rate);
@@ -218,18 +235,18 @@ impl<S: Real> Extremal<S> {
             Regime::RotatingBelow => {
                 let l = self.anisotropy;
                 let (l2, inverse) = (l * l, one / self.rate);
-                let second = complementary * (u + z) + m * s * c / d;
+                let energy = complementary * (u + z) + m * s * c / d;
                 lambda = secular;
                 (sin_beta, cos_beta, beta_rate) = (sign * b * inverse * s / d, sign * c / d, b / d);
-                a = (one + inverse * inverse).sqrt() * second / k;
-                b_q = d2 + l2 * (c2 + (one + inverse * inverse) * second * s * c / d);
-                let second_terms = complementary * (u + z) + (m * s * c / d).abs();
-                let mixed = (one + inverse * inverse) * second_terms * (s * c / d).abs();
-                a_terms = (one + inverse * inverse).sqrt() * second_terms / k;
+                a = (one + inverse * inverse).sqrt() * energy / k;
+                b_q = d2 + l2 * (c2 + (one + inverse * inverse) * energy * s * c / d);
+                let energy_terms = complementary * (u + z) + (m * s * c / d).abs();
+                let mixed = (one + inverse * inverse) * energy_terms * (s * c / d).abs();
+                a_terms = (one + inverse * inverse).sqrt() * energy_terms / k;
                 b_terms = d2 + l2 * (c2 + mixed);
                 chi = a.atan2(b_q);
-                delta_beta = second / (two * k * self.rate * d);
-                delta_beta_rate = (d + m * second * s * c / d2) / (two * k);
+                delta_beta = energy / (two * k * self.rate * d);
+                delta_beta_rate = (d + m * energy * s * c / d2) / (two * k);
             }
             Regime::RotatingAbove => {
                 let w2 = self.anisotropy * self.anisotropy;
@@ -276,17 +293,19 @@ impl<S: Real> Extremal<S> {
             turns_rounding: S::from_f64(EXCESS_ROUNDING) * S::EPSILON * half_turns * elliptic.excess,
             delta_beta,
             delta_beta_rate,
-            elliptic_calls: 3,
+            elliptic_calls: CALLS_FOR_STATE,
         }
     }
 
     /// Θ and λ, less `turns·π`, after `n` quarter turns (`u = nK`).
+    #[inline(always)]
     pub fn quarter_phase(&self, elliptic: &Elliptic<S>, n: S, turns: S) -> QuarterPhase<S> {
         let (one, two) = (S::ONE, S::from_f64(2.0));
         let (k, g) = (self.k, self.casimir);
         let half_turns = (n / two).floor();
         let rest = n - two * half_turns; // 0 or 1
-        let even = rest < S::from_f64(0.5);
+        let even = rest.less(S::from_f64(0.5));
+        let choose = |at_even: S, at_odd: S| S::select(even, at_even, at_odd);
         let (m, complementary) = (elliptic.m, elliptic.complementary);
         let d = complementary.sqrt();
         let z = n * elliptic.quarter_z;
@@ -297,18 +316,18 @@ impl<S: Real> Extremal<S> {
             Regime::RotatingBelow => {
                 let inverse = one / self.rate;
                 a = (one + inverse * inverse).sqrt() * complementary * x / k;
-                b_q = if even { one + self.anisotropy * self.anisotropy } else { complementary };
-                ellipse = if even { one } else { k2 };
+                b_q = choose(one + self.anisotropy * self.anisotropy, complementary);
+                ellipse = choose(one, k2);
             }
             Regime::RotatingAbove => {
-                a = (g / self.p) * if even { x } else { complementary * x } / k;
-                b_q = if even { one / k2 } else { one };
-                ellipse = if even { one } else { k2 };
+                a = (g / self.p) * choose(x, complementary * x) / k;
+                b_q = choose(one / k2, one);
+                ellipse = choose(one, k2);
             }
             _ => {
-                a = g / (k * self.rate) * if even { -z } else { one / d };
-                b_q = if even { two / k } else { g * g / (two * k) * d * z };
-                ellipse = if even { one } else { one + (k2 - one) * m };
+                a = g / (k * self.rate) * choose(-z, one / d);
+                b_q = choose(two / k, g * g / (two * k) * d * z);
+                ellipse = choose(one, one + (k2 - one) * m);
             }
         }
         let chi = a.atan2(b_q);
@@ -325,20 +344,19 @@ impl<S: Real> Extremal<S> {
 }
 
 /// How far the angle of `(b_q, a)` moves when both change by [`TERM_ROUNDING`] ε of the terms they are summed from.
-fn chi_rounding<S: Real>((a, a_terms): (S, S), (b_q, b_terms): (S, S)) -> S {
+#[inline(always)]
+fn chi_rounding<S: Pack>((a, a_terms): (S, S), (b_q, b_terms): (S, S)) -> S {
     S::from_f64(TERM_ROUNDING) * S::EPSILON * ((b_q.abs() * a_terms + a.abs() * b_terms) / (a * a + b_q * b_q))
 }
 
 /// The angle of `(b_q, a)` that differs by less than π from `φ = atan2(s, c)`, `|φ| ≤ π/2`.
-fn continuous_angle<S: Real>(a: S, b_q: S, s: S, c: S) -> S {
+#[inline(always)]
+fn continuous_angle<S: Pack>(a: S, b_q: S, s: S, c: S) -> S {
     let angle = a.atan2(b_q);
     let half = S::PI / S::from_f64(2.0);
     let ahead = a * c - b_q * s;
-    if angle > half && ahead < S::ZERO {
-        angle - (S::PI + S::PI)
-    } else if angle < -half && ahead > S::ZERO {
-        angle + (S::PI + S::PI)
-    } else {
-        angle
-    }
+    let over = angle.more(half).and(ahead.less(S::ZERO));
+    let under = angle.less(-half).and(ahead.more(S::ZERO));
+    let turn = S::PI + S::PI;
+    S::select(over, angle - turn, S::select(under, angle + turn, angle))
 }

@@ -17,8 +17,9 @@ use crate::numerics::pack::{Mask, Pack};
 /// fewer than 1100.
 pub(super) const MAX_DUPLICATIONS: usize = 1100;
 
+/// A quotient of two literals.
 #[inline(always)]
-pub(super) fn c<S: Pack>(numerator: f64, denominator: f64) -> S {
+pub(super) fn fraction<S: Pack>(numerator: f64, denominator: f64) -> S {
     S::from_f64(numerator) / S::from_f64(denominator)
 }
 
@@ -41,7 +42,7 @@ pub fn r_f<S: Pack>(x: S, y: S, z: S) -> S {
     let zero = S::ZERO;
     let in_domain = none_negative(x, y, z).and((x + y).more(zero)).and((y + z).more(zero)).and((z + x).more(zero));
     let quarter = S::from_f64(0.25);
-    let third = c::<S>(1.0, 3.0);
+    let third = fraction::<S>(1.0, 3.0);
     let (mut x, mut y, mut z) = (x, y, z);
     let mut mean = (x + y + z) * third;
     for _ in 0..MAX_DUPLICATIONS {
@@ -67,7 +68,7 @@ pub fn r_f<S: Pack>(x: S, y: S, z: S) -> S {
 pub fn r_c<S: Pack>(x: S, y: S) -> S {
     let in_domain = x.at_least(S::ZERO).and(y.more(S::ZERO));
     let quarter = S::from_f64(0.25);
-    let third = c::<S>(1.0, 3.0);
+    let third = fraction::<S>(1.0, 3.0);
     let (mut x, mut y) = (x, y);
     let mut mean = (x + y + y) * third;
     for _ in 0..MAX_DUPLICATIONS {
@@ -85,20 +86,23 @@ pub fn r_c<S: Pack>(x: S, y: S) -> S {
     let s = (y - mean) / mean;
     let series = s
         * s
-        * (c::<S>(3.0, 10.0)
-            + s * (c::<S>(1.0, 7.0)
-                + s * (c::<S>(3.0, 8.0)
-                    + s * (c::<S>(9.0, 22.0) + s * (c::<S>(159.0, 208.0) + s * c::<S>(9.0, 8.0))))));
+        * (fraction::<S>(3.0, 10.0)
+            + s * (fraction::<S>(1.0, 7.0)
+                + s * (fraction::<S>(3.0, 8.0)
+                    + s * (fraction::<S>(9.0, 22.0)
+                        + s * (fraction::<S>(159.0, 208.0) + s * fraction::<S>(9.0, 8.0))))));
     within(in_domain, (S::ONE + series) / mean.sqrt())
 }
 
 /// The common series of `R_D` and `R_J` in the elementary symmetric functions of the relative deviations.
 #[inline(always)]
 pub(super) fn second_and_third_kind_series<S: Pack>(e2: S, e3: S, e4: S, e5: S) -> S {
-    e2 * (c::<S>(-3.0, 14.0) + e2 * (c::<S>(9.0, 88.0) - c::<S>(1.0, 16.0) * e2))
-        + e3 * (c::<S>(1.0, 6.0) + e2 * (c::<S>(-9.0, 52.0) + c::<S>(45.0, 272.0) * e2) + c::<S>(3.0, 40.0) * e3)
-        + e4 * (c::<S>(-3.0, 22.0) + c::<S>(3.0, 20.0) * e2 - c::<S>(9.0, 68.0) * e3)
-        + e5 * (c::<S>(3.0, 26.0) - c::<S>(9.0, 68.0) * e2)
+    e2 * (fraction::<S>(-3.0, 14.0) + e2 * (fraction::<S>(9.0, 88.0) - fraction::<S>(1.0, 16.0) * e2))
+        + e3 * (fraction::<S>(1.0, 6.0)
+            + e2 * (fraction::<S>(-9.0, 52.0) + fraction::<S>(45.0, 272.0) * e2)
+            + fraction::<S>(3.0, 40.0) * e3)
+        + e4 * (fraction::<S>(-3.0, 22.0) + fraction::<S>(3.0, 20.0) * e2 - fraction::<S>(9.0, 68.0) * e3)
+        + e5 * (fraction::<S>(3.0, 26.0) - fraction::<S>(9.0, 68.0) * e2)
 }
 
 /// Second kind, `R_D(x, y, z) = (3/2) ∫₀^∞ dt / ((t+z) √((t+x)(t+y)(t+z)))`.
@@ -109,7 +113,7 @@ pub fn r_d<S: Pack>(x: S, y: S, z: S) -> S {
     let zero = S::ZERO;
     let in_domain = none_negative(x, y, z).and((x + y).more(zero)).and(z.more(zero));
     let quarter = S::from_f64(0.25);
-    let fifth = c::<S>(1.0, 5.0);
+    let fifth = fraction::<S>(1.0, 5.0);
     let three = S::from_f64(3.0);
     let (mut x, mut y, mut z) = (x, y, z);
     let mut sum = zero;
@@ -142,8 +146,10 @@ pub(super) fn r_f_series<S: Pack>(x: S, y: S, mean: S) -> S {
     let dz = -(dx + dy);
     let e2 = dx * dy - dz * dz;
     let e3 = dx * dy * dz;
-    let series = e2 * (c::<S>(-1.0, 10.0) + e2 * (c::<S>(1.0, 24.0) - c::<S>(5.0, 208.0) * e2))
-        + e3 * (c::<S>(1.0, 14.0) + e2 * (c::<S>(-3.0, 44.0) + e2 * c::<S>(1.0, 16.0)) + e3 * c::<S>(3.0, 104.0));
+    let series = e2 * (fraction::<S>(-1.0, 10.0) + e2 * (fraction::<S>(1.0, 24.0) - fraction::<S>(5.0, 208.0) * e2))
+        + e3 * (fraction::<S>(1.0, 14.0)
+            + e2 * (fraction::<S>(-3.0, 44.0) + e2 * fraction::<S>(1.0, 16.0))
+            + e3 * fraction::<S>(3.0, 104.0));
     (S::ONE + series) / mean.sqrt()
 }
 
@@ -180,8 +186,8 @@ pub fn r_f_and_r_d_within<S: Pack>(spread_wanted: S, x: S, y: S, z: S) -> (S, S)
     let zero = S::ZERO;
     let in_domain = none_negative(x, y, z).and((x + y).more(zero)).and(z.more(zero));
     let quarter = S::from_f64(0.25);
-    let third = c::<S>(1.0, 3.0);
-    let fifth = c::<S>(1.0, 5.0);
+    let third = fraction::<S>(1.0, 3.0);
+    let fifth = fraction::<S>(1.0, 5.0);
     let three = S::from_f64(3.0);
     let (mut x, mut y, mut z) = (x, y, z);
     let mut sum = zero;
@@ -216,7 +222,7 @@ pub fn r_j<S: Pack>(x: S, y: S, z: S, p: S) -> S {
     let in_domain = none_negative(x, y, z).and((x + y).more(zero)).and((y + z).more(zero)).and((z + x).more(zero));
     let in_domain = in_domain.and(p.more(zero));
     let quarter = S::from_f64(0.25);
-    let fifth = c::<S>(1.0, 5.0);
+    let fifth = fraction::<S>(1.0, 5.0);
     let two = S::from_f64(2.0);
     let three = S::from_f64(3.0);
     let (mut x, mut y, mut z, mut p) = (x, y, z, p);

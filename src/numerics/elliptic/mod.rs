@@ -1,6 +1,7 @@
 //! Elliptic integrals and functions, every one of them with the complementary parameter `m' = 1 − m` as an input.
 
 pub mod carlson;
+pub mod carlson_together;
 pub mod complete;
 pub mod incomplete;
 pub mod jacobi;

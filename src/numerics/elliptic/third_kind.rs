@@ -8,7 +8,7 @@
 //! Source: B. C. Carlson, Numer. Algorithms 10 (1995) 13-26, eqs. (2.23)-(2.27). On a pack the loops go on while any member
 //! needs another duplication; the others keep what they have. Not known here: `p` below the other arguments ([`super::carlson::r_j`]).
 
-use super::carlson::{MAX_DUPLICATIONS, c, r_c, r_d_series, r_f_series, second_and_third_kind_series};
+use super::carlson::{MAX_DUPLICATIONS, fraction, r_c, r_d_series, r_f_series, second_and_third_kind_series};
 use crate::numerics::pack::{Mask, Pack};
 
 /// The arguments of R_J on their way to each other, and the sum so far.
@@ -30,7 +30,7 @@ impl<P: Pack> Duplication<P> {
 
     #[inline(always)]
     fn mean(&self) -> P {
-        (self.x + self.y + self.z + self.p + self.p) * c::<P>(1.0, 5.0)
+        (self.x + self.y + self.z + self.p + self.p) * fraction::<P>(1.0, 5.0)
     }
 
     #[inline(always)]
@@ -82,11 +82,12 @@ fn r_c_near<P: Pack>(active: P::Mask, e: P) -> P {
     // The first term left out is e⁸/17 ≤ ε/17.
     let near = e.at_most(P::EPSILON_ROOT_8);
     let series = P::ONE
-        - e * (c::<P>(1.0, 3.0)
-            - e * (c::<P>(1.0, 5.0)
-                - e * (c::<P>(1.0, 7.0)
-                    - e * (c::<P>(1.0, 9.0)
-                        - e * (c::<P>(1.0, 11.0) - e * (c::<P>(1.0, 13.0) - e * c::<P>(1.0, 15.0)))))));
+        - e * (fraction::<P>(1.0, 3.0)
+            - e * (fraction::<P>(1.0, 5.0)
+                - e * (fraction::<P>(1.0, 7.0)
+                    - e * (fraction::<P>(1.0, 9.0)
+                        - e * (fraction::<P>(1.0, 11.0)
+                            - e * (fraction::<P>(1.0, 13.0) - e * fraction::<P>(1.0, 15.0)))))));
     let far = active.and(near.not());
     if far.any() {
         // Members that need no duplication are not to prolong the loop.
@@ -125,7 +126,7 @@ pub fn r_j_circular<P: Pack>(x: P, y: P, z: P, p: P, delta: P) -> P {
 pub fn r_f_r_d_and_r_j<P: Pack>(x: P, y: P, z: P, p: P, delta: P) -> (P, P, P) {
     let quarter = P::from_f64(0.25);
     let three = P::from_f64(3.0);
-    let fifth = c::<P>(1.0, 5.0);
+    let fifth = fraction::<P>(1.0, 5.0);
     let mut run = Duplication::new(x, y, z, p, delta);
     let mut mean = run.mean();
     // R_D's own sum, and the arguments where R_F and R_D end.
@@ -151,7 +152,7 @@ pub fn r_f_r_d_and_r_j<P: Pack>(x: P, y: P, z: P, p: P, delta: P) -> (P, P, P) {
         own_mean = (x + y + three * z) * fifth;
         mean = run.mean();
     }
-    let first = r_f_series(x, y, (x + y + z) * c::<P>(1.0, 3.0));
+    let first = r_f_series(x, y, (x + y + z) * fraction::<P>(1.0, 3.0));
     (first, three * sum + weight * r_d_series(x, y, own_mean), run.value(mean))
 }
 

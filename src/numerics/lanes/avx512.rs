@@ -193,6 +193,10 @@ impl Pack for Avx512 {
         Self(unsafe { _mm512_mask_blend_pd(mask.0, no.0, yes.0) })
     }
     #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        super::elementary::atan2(self, x)
+    }
+    #[inline(always)]
     fn smaller(self, other: Self) -> Self {
         // SAFETY: as above. `VMINPD` is `if a < b { a } else { b }`.
         Self(unsafe { _mm512_min_pd(self.0, other.0) })

@@ -2,4 +2,5 @@
 
 mod avx512;
 pub mod dispatch;
+pub mod elementary;
 mod portable;

@@ -164,6 +164,10 @@ impl Pack for Portable {
         Self(from_fn(|i| f64::from_bits((yes.0[i].to_bits() & mask.0[i]) | (no.0[i].to_bits() & !mask.0[i]))))
     }
     #[inline(always)]
+    fn atan2(self, x: Self) -> Self {
+        super::elementary::atan2(self, x)
+    }
+    #[inline(always)]
     fn smaller(self, other: Self) -> Self {
         zip(self, other, |a, b| if a < b { a } else { b })
     }
