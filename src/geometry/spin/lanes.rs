@@ -121,7 +121,7 @@ mod tests {
     }
 
     fn bits(result: &Result<ConjugatePoint, SpinError>) -> Result<[u64; 10], SpinError> {
-        let p = result.clone()?;
+        let p = (*result)?;
         let counts = [p.iterations, p.elliptic_calls, p.crossings].map(u64::from);
         let numbers = [p.t1, p.theta, p.phi, p.r[0], p.r[1], p.r[2], p.error].map(f64::to_bits);
         let mut all = [0; 10];

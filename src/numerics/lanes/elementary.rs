@@ -10,9 +10,9 @@ use crate::numerics::real::Real;
 /// `atan(1/2)`, `atan(1)`, `atan(3/2)`, `atan(∞)` as sums of two numbers.
 const HIGH: [f64; 4] = [
     4.636_476_090_008_060_935_15e-1,
-    7.853_981_633_974_482_789_99e-1,
+    std::f64::consts::FRAC_PI_4,
     9.827_937_232_473_290_540_82e-1,
-    1.570_796_326_794_896_558,
+    std::f64::consts::FRAC_PI_2,
 ];
 const LOW: [f64; 4] = [
     2.269_877_745_296_168_709_24e-17,
