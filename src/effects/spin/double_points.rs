@@ -243,7 +243,8 @@ mod tests {
             let (found, _) = find(k, &branch).unwrap();
             assert_eq!(found.len(), expected, "k = {k}");
             for double in found {
-                assert!(double.residual <= double.error && double.error < 3e-11, "{double:?}");
+                // The bound is that of t1 there (7e-13 where δβ cancels, k = 1.53) times the speeds at the crossing: 3.4e-11.
+                assert!(double.residual <= double.error && double.error < 5e-11, "{double:?}");
                 assert!(double.p_theta[0].0 < double.p_theta[1].0);
             }
         }
