@@ -9,7 +9,8 @@
 //! - [`step`](mod@step): order and step length from the requested error, the coefficients of one step;
 //! - [`integrator`]: the loop over steps, compensated sums, errors as values, observers;
 //! - [`dense`]: states between steps, streamed or kept;
-//! - [`events`]: every root of a function of the state, by isolating the roots of the step's polynomial.
+//! - [`events`]: every root of a function of the state, by isolating the roots of the step's polynomial;
+//! - [`lanes`]: eight integrations beside each other, from the same flows and with the same bits.
 //!
 //! Sources: À. Jorba and M. Zou, *A software package for the numerical integration of ODEs by means of high-order Taylor
 //! methods*, Experimental Mathematics 14 (2005) 99-117. Not known here: any geometry.
