@@ -9,7 +9,9 @@
 //! - [`step`](mod@step): order and step length from the requested error, the coefficients of one step;
 //! - [`integrator`]: the loop over steps, compensated sums, errors as values, observers;
 //! - [`dense`]: states between steps, streamed or kept;
-//! - [`events`]: every root of a function of the state, by isolating the roots of the step's polynomial.
+//! - [`events`]: every root of a function of the state, by isolating the roots of the step's polynomial;
+//! - [`monitor`]: how far a conserved quantity drifts;
+//! - [`multiplications`]: what the series of a step cost, counted.
 //!
 //! Sources: À. Jorba and M. Zou, *A software package for the numerical integration of ODEs by means of high-order Taylor
 //! methods*, Experimental Mathematics 14 (2005) 99-117. Not known here: any geometry.
@@ -19,4 +21,6 @@ pub mod events;
 pub mod flow;
 pub mod integrator;
 pub mod lanes;
+pub mod monitor;
+pub mod multiplications;
 pub mod step;
