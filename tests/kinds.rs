@@ -6,6 +6,7 @@ use polhode::contract::code;
 use polhode::contract::node::Kind;
 use polhode::contract::plan::{ConfigSource, Plan};
 use polhode::experiments;
+use polhode::experiments::definition::Asked;
 use std::collections::BTreeMap;
 
 fn plans() -> Vec<Plan> {
@@ -13,7 +14,8 @@ fn plans() -> Vec<Plan> {
     let plan = |experiment: &experiments::definition::Experiment| {
         let file = format!("{folder}/{}.toml", experiment.kind);
         let text = std::fs::read_to_string(&file).unwrap_or_else(|error| panic!("{file}: {error}"));
-        let planned = experiment.plan(experiment.kind, &ConfigSource { file, text }, None);
+        let asked = Asked { measure: true, ..Asked::default() };
+        let planned = experiment.plan_asked(experiment.kind, &ConfigSource { file, text }, asked);
         planned.unwrap_or_else(|error| panic!("{error}")).plan
     };
     experiments::ALL.iter().map(plan).collect()
