@@ -92,13 +92,19 @@ fn conjugate_times_have_the_least_equations() {
     assert_eq!((points.state_dimension, points.dense_points, points.event_evaluations), (6, 3, 0));
 }
 
+/// A flow with columns, and its state.
+type Joint<F, const K: usize> = (
+    WithColumns<F, <F as Tangent<f64>>::ColumnParameter, K>,
+    Joined<<F as Flow<f64>>::State<f64>, Columns<<F as Tangent<f64>>::Column<f64>, K>>,
+);
+
 /// A flow with `K` columns, all the same.
 fn with_columns<F, const K: usize>(
     flow: F,
     start: &F::State<f64>,
     column: F::Column<f64>,
     parameter: F::ColumnParameter,
-) -> (WithColumns<F, F::ColumnParameter, K>, Joined<F::State<f64>, Columns<F::Column<f64>, K>>)
+) -> Joint<F, K>
 where
     F: Tangent<f64>,
 {

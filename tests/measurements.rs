@@ -1,7 +1,5 @@
 //! Measurements: only when asked for, apart from everything that is committed or compared, and once on a machine.
 
-#![expect(clippy::expect_used, reason = "helpers of tests")]
-
 mod support;
 
 use polhode::table::Table;

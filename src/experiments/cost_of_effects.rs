@@ -28,7 +28,7 @@ use crate::plot::axis::Axis;
 use crate::plot::label::Label;
 use crate::plot::mark::{Curve, Points, RuleLine, Side, Text};
 use crate::plot::picture::{Panel, Picture, Width};
-use crate::plot::role::Role;
+use crate::plot::role::{Marker, Role};
 use crate::table::{Table, Tables};
 use serde::{Deserialize, Serialize};
 
@@ -217,18 +217,21 @@ impl Definition for Cost {
         let mut picture = Picture::new(Width::Double, 84.0, "What each effect costs").caption(format!(
             "Counted work per start of power-series integrations with one effect each added to the base flow. (a) Spin problem, k = {}, \
              {} starts on the equator, up to the first conjugate time (the lift to the sphere). (b) Serret-Andoyer flow (9), {} oscillating extremals, up to the first \
-             conjugate time. (c) Left-invariant metric on SO(3), equation (2), {} momenta, up to the second. Dots from left to right: relative error asked for {}. A coefficient \
-             is one order of the series of the whole flow, or of one Jacobi column, on one step. What is not asked for is zero, and has no dot. \
-             On the right: dimension of the integrated state, and multiplications in the series of flow and columns over those of the base flow at \
-             the last accuracy. Columns steer the steps here.",
+             conjugate time. (c) Left-invariant metric on SO(3), equation (2), {} momenta, up to the second. Lines: relative error asked for \
+             {}; the mark is the last one. A coefficient is one order of the series of the whole flow, or of one Jacobi column, on one \
+             step. What is not asked for is zero, and has no mark. n: dimension of the integrated state. mult.: multiplications in the series of \
+             flow and columns over those of the base flow at the last accuracy. Columns steer the steps here, so the flow of a row with columns \
+             takes a few steps more; conjugate: with the columns that conjugate times need.",
             params.spin.k,
             params.spin.p_theta.count(),
             params.serret_andoyer.xi1.count(),
             params.rotation_group.directions,
             params.accuracies(),
         ));
+        let range = count_range(tables)?;
         for (problem, title) in PROBLEMS {
-            picture = picture.panel(counted_panel(title, tables.get(problem).map_err(unread)?, params.samples)?);
+            let table = tables.get(problem).map_err(unread)?;
+            picture = picture.panel(counted_panel(title, table, params.samples, range)?);
         }
         Ok(picture)
     }
@@ -460,60 +463,77 @@ fn figure_rows(counts: &Counts<'_>, samples: usize) -> Vec<(&'static str, String
     words.into_iter().filter(|(set, _)| counts.sets.iter().any(|known| known == set)).collect()
 }
 
-/// What the dots of a row stand for: column, role, words, place within the row.
-const DOTS: [(&str, Role, &str, f64); 6] = [
-    ("flow_evaluations", Role::SeriesA, "coefficients of the flow", -0.24),
-    ("tangent_evaluations", Role::SeriesB, "of the columns", -0.08),
-    ("event_evaluations", Role::SeriesC, "event expanded on a step", 0.08),
-    ("root_isolations", Role::SeriesD, "roots isolated on a step", 0.24),
-    ("kept_coefficients", Role::SeriesE, "coefficients kept", 0.08),
-    ("states_inside", Role::SeriesF, "states inside steps", 0.08),
+/// What the dots of a row stand for: column, role, shape, words, place within the row.
+const DOTS: [(&str, Role, Option<Marker>, &str, f64); 7] = [
+    ("flow_evaluations", Role::SeriesA, None, "coefficients of the flow", -0.3),
+    ("tangent_evaluations", Role::SeriesB, None, "coefficients of the columns", -0.1),
+    ("event_evaluations", Role::SeriesC, None, "steps with the event expanded", 0.1),
+    ("root_isolations", Role::SeriesD, None, "steps with roots isolated", 0.3),
+    ("kept_coefficients", Role::SeriesE, None, "coefficients kept", 0.1),
+    ("states_inside", Role::SeriesF, None, "states inside steps", -0.1),
+    ("monitor_evaluations", Role::SeriesF, Some(Marker::Cross), "energies", 0.1),
 ];
 
-fn rows_axis(rows: &[(&'static str, String)]) -> Axis {
+fn rows_axis(rows: &[(&'static str, String)], from: f64) -> Axis {
     let ticks = rows.iter().enumerate().map(|(i, (_, words))| (i as f64, Label::from(words.as_str())));
-    Axis::new("").fixed(-0.6, rows.len() as f64 - 0.4).ticks_at(ticks).reversed()
+    Axis::new("").fixed(from, rows.len() as f64 - 0.4).ticks_at(ticks).reversed()
 }
 
-fn counted_panel(title: &str, table: &Table, samples: usize) -> Result<Panel, NodeError> {
+/// The least and the largest count per start that the figure shows, over all problems.
+fn count_range(tables: &Tables) -> Result<(f64, f64), NodeError> {
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for (problem, _) in PROBLEMS {
+        let counts = Counts::read(tables.get(problem).map_err(unread)?)?;
+        for row in 0..counts.table.rows() {
+            for (column, ..) in DOTS {
+                let count = counts.per_start(column, row)?;
+                if count > 0.0 {
+                    (least, most) = (least.min(count), most.max(count));
+                }
+            }
+        }
+    }
+    Ok((least, most))
+}
+
+fn counted_panel(title: &str, table: &Table, samples: usize, (least, most): (f64, f64)) -> Result<Panel, NodeError> {
     let counts = Counts::read(table)?;
     let rows = figure_rows(&counts, samples);
     let last = counts.last_accuracy();
     let base = counts.row("base", last)?;
-    let mut dots = Vec::new();
-    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    // Room on the right for two columns of numbers, above for their heads.
+    let beyond = |part: f64| most * libm::pow(most / least, part);
+    let decades = (0..=9).map(|n| (libm::pow(10.0, f64::from(n)), format!("10^{n}"))).filter(|(at, _)| *at <= most);
+    let x = Axis::new("count per start").log().fixed(least / libm::pow(most / least, 0.06), beyond(0.66)).ticks_at(decades);
+    let y = rows_axis(&rows, -1.3);
+    let mut panel = Panel::new(x, y).title(title.to_owned());
     for (i, (set, _)) in rows.iter().enumerate() {
-        for (column, role, words, shift) in DOTS {
+        for (column, role, marker, words, shift) in DOTS {
             let mut points = Vec::new();
             for row in (0..table.rows()).filter(|row| counts.sets[*row] == *set) {
                 let count = counts.per_start(column, row)?;
                 if count > 0.0 {
-                    (least, most) = (least.min(count), most.max(count));
                     points.push((count, i as f64 + shift));
                 }
             }
-            if !points.is_empty() {
-                dots.push((role, words, points));
+            if let Some(end) = points.last().copied() {
+                panel = panel.mark(Points { marker, ..Points::new(role, vec![end]) }.legend(words));
+                // Counts that are the same at all accuracies have no line.
+                if points.iter().any(|point| *point != end) {
+                    panel = panel.mark(Curve::new(role, points));
+                }
             }
         }
-    }
-    // Room on the right for two columns of numbers.
-    let span = most / least;
-    let (at_dimension, at_ratio) = (most * libm::pow(span, 0.16), most * libm::pow(span, 0.42));
-    let x = Axis::new("count per start").log().fixed(least / libm::pow(span, 0.05), most * libm::pow(span, 0.44));
-    let mut panel = Panel::new(x, rows_axis(&rows)).title(title.to_owned());
-    for (role, words, points) in dots {
-        panel = panel.mark(Curve::new(role, points.clone())).mark(Points::new(role, points).legend(words));
-    }
-    for (i, (set, _)) in rows.iter().enumerate() {
         let row = counts.row(set, last)?;
         let ratio = counts.of("multiplications", row)? / counts.of("multiplications", base)?;
         let dimension = counts.of("state_dimension", row)?;
         panel = panel
-            .mark(Text::new((at_dimension, i as f64), Side::Centre, format!("{dimension}")))
-            .mark(Text::new((at_ratio, i as f64), Side::Left, format!("× {ratio:.2}")));
+            .mark(Text::new((beyond(0.24), i as f64), Side::Left, format!("{dimension}")))
+            .mark(Text::new((beyond(0.65), i as f64), Side::Left, format!("{ratio:.2}")));
     }
-    Ok(panel)
+    Ok(panel
+        .mark(Text::new((beyond(0.24), -0.9), Side::Left, "*n*"))
+        .mark(Text::new((beyond(0.65), -0.9), Side::Left, "mult.")))
 }
 
 fn measurements(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
@@ -564,9 +584,9 @@ fn timed_panel(title: &str, table: &Table, samples: usize) -> Result<Panel, Node
     let mut accuracies: Vec<f64> = counts.asked.to_vec();
     accuracies.dedup();
     let most = table.f64s("ratio").map_err(unread)?.iter().copied().fold(1.0, f64::max);
-    let x = Axis::new("time over base flow").fixed(0.0, 1.32 * most);
+    let x = Axis::new("time over base flow").fixed(0.0, 1.5 * most);
     let mut panel =
-        Panel::new(x, rows_axis(&rows)).title(title.to_owned()).mark(RuleLine::vertical(Role::Reference, 1.0));
+        Panel::new(x, rows_axis(&rows, -0.6)).title(title.to_owned()).mark(RuleLine::vertical(Role::Reference, 1.0));
     let roles = [Role::SeriesA, Role::SeriesB, Role::SeriesC, Role::SeriesD, Role::SeriesE];
     for (j, asked) in accuracies.iter().enumerate() {
         let shift = if accuracies.len() > 1 { 0.4 * (j as f64 / (accuracies.len() - 1) as f64) - 0.2 } else { 0.0 };
@@ -581,7 +601,7 @@ fn timed_panel(title: &str, table: &Table, samples: usize) -> Result<Panel, Node
         let row = counts.row(set, last)?;
         multiplied.push((counts.of("multiplications_ratio", row)?, i as f64 + 0.36));
         let time = format!("{:.1} µs", counts.of("microseconds", row)?);
-        panel = panel.mark(Text::new((1.3 * most, i as f64), Side::Left, time));
+        panel = panel.mark(Text::new((1.48 * most, i as f64), Side::Left, time));
     }
     Ok(panel.mark(Points::new(Role::SeriesF, multiplied).legend("multiplications, counted")))
 }
@@ -631,7 +651,8 @@ mod tests {
             let exports = plan.exports.iter().filter(|export| export.path.starts_with("measured/")).count();
             assert_eq!((measured, exports), if measure { (3, 4) } else { (0, 0) });
         }
-        assert!(EXPERIMENT.measures);
+        let measuring = crate::experiments::ALL.iter().filter(|experiment| experiment.measures);
+        assert_eq!(measuring.map(|experiment| experiment.kind).collect::<Vec<_>>(), ["cost_of_effects"]);
     }
 
     #[test]
