@@ -2,8 +2,9 @@
 //!
 //! The quantity (an energy, a Casimir, `|r|²`, `r·h`) is evaluated once at the start and once at the end of every step; the
 //! largest difference to its first value is kept, relative to that value or, for a quantity that is zero, to a scale that the caller
-//! gives. The state at a step's end is the one that the integration goes on from, bit for bit. Nothing is integrated for it: a
-//! monitor adds no state and no equation, and an integration without one evaluates nothing.
+//! gives. The state at a step's end is, for power series, the one that the integration goes on from, bit for bit (for a
+//! Runge-Kutta pair the end of its interpolant). Nothing is integrated for it: a monitor adds no state and no equation, and
+//! an integration without one evaluates nothing.
 //!
 //! Not known here: which quantities are conserved, and what drift is too much. A small drift proves little: errors along the
 //! level set do not show.
