@@ -72,3 +72,22 @@ fn only_pictures_depend_on_how_things_are_drawn() {
         assert!(!(has("pipeline") || has("cli")), "{} reaches the runner", kind.name);
     }
 }
+
+/// A time can reach a table only by code that reads the clock, and only measurements declare such code.
+#[test]
+fn only_measurements_read_the_clock() {
+    let mut clocks = 0;
+    for kind in kinds().values() {
+        let listing = code::listing(kind).expect("code that exists");
+        for (file, _) in listing.lines.iter().filter(|(file, _)| file.ends_with(".rs")) {
+            let text = std::fs::read_to_string(format!("{}/src/{file}", env!("CARGO_MANIFEST_DIR"))).expect("a file");
+            let program = text.split("#[cfg(test)]").next().unwrap_or_default();
+            if program.contains("std::time") || program.contains("Instant::now") || program.contains("SystemTime") {
+                assert!(kind.measurement, "{} depends on {file}, which reads the clock", kind.name);
+                clocks += 1;
+            }
+        }
+    }
+    // The three problems of `cost_of_effects`: else the search would find nothing at all.
+    assert!(clocks >= 3, "measurements without a clock: {clocks}");
+}

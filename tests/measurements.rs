@@ -38,6 +38,10 @@ fn without_being_asked_nothing_is_measured() {
     let graph = workspace.line("graph --form json").ends(0).json();
     let kinds = graph["nodes"].as_array().expect("nodes");
     assert!(kinds.iter().all(|node| node["measurement"] == false), "{graph}");
+    for line in ["figures figures/measured/cost_of_effects.svg", "why measured/cost_of_effects/time-spin.parquet"] {
+        let refused = workspace.line(line).ends(2);
+        assert!(refused.err.contains("is a measurement") && refused.err.contains("--measure"), "{}", refused.err);
+    }
     for verb in ["list", "check", "why cost_of_effects"] {
         assert!(!workspace.line(verb).out.contains("time-spin"), "{verb}");
     }

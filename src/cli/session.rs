@@ -96,6 +96,13 @@ impl Session {
             return Err(Refused { exit: Exit::Store, text });
         }
         let targets: Vec<String> = targets.iter().map(|target| workspace.relative(target)).collect();
+        let of_measurements = |target: &&String| target.starts_with(&format!("{MEASURED_FOLDER}/"));
+        if let Some(target) = targets.iter().find(of_measurements).filter(|_| !workspace.measure) {
+            let text = format!(
+                "{target} is a measurement, which is part of nothing else\n  measure it: polhode figures {target} --measure"
+            );
+            return Err(Refused { exit: Exit::Usage, text });
+        }
         // What is asked of values.toml is asked of the whole.
         let of_values = |target: &String| [collected::ID, collected::VALUES_FILE].contains(&target.as_str());
         let whole = targets.is_empty() || targets.iter().any(of_values);
