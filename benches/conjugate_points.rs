@@ -12,9 +12,16 @@
 
 use polhode::geometry::serret_andoyer::conjugate::first_conjugate_time;
 use polhode::geometry::serret_andoyer::flow::first_conjugate_time_by_integration as serret_andoyer_by_integration;
+use polhode::geometry::serret_andoyer::flow_lanes::{
+    FlowStart, first_conjugate_times_by_integration as serret_andoyer_in_lanes,
+};
+use polhode::geometry::serret_andoyer::lanes::{first_conjugate_locus, first_conjugate_times};
 use polhode::geometry::serret_andoyer::{Branch, Clairaut, Extremal, Metric, Start, first_conjugate_point};
 use polhode::geometry::spin::conjugate::{first_conjugate_point as spin_point, nth_conjugate_time};
+use polhode::geometry::spin::lanes::first_conjugate_points as spin_points;
 use polhode::geometry::spin::lift::first_conjugate_time_by_integration as spin_by_integration;
+use polhode::geometry::spin::lift_lanes::first_conjugate_times_by_integration as spin_in_lanes;
+use polhode::geometry::spin::pendulum::{first_conjugate_time_by_pendulum, first_conjugate_times_by_pendulum};
 use polhode::geometry::spin::start::Start as SpinStart;
 use serde_json::{Value, json};
 use std::error::Error;
@@ -26,7 +33,7 @@ mod timing;
 const REFERENCE: &str = include_str!("peers/reference.json");
 /// What the Taylor engine is asked for; the last is the spacing of the numbers, where rounding alone is left.
 const ASKED: [f64; 7] = [1e-3, 1e-6, 1e-9, 1e-12, 1e-14, 1e-15, f64::EPSILON];
-/// Starts that are timed together: whole packs of eight.
+/// Starts that are timed together, one at a time; in lanes it is all of them.
 const BLOCK: usize = 40;
 /// Later than every conjugate time.
 const T_MAX: f64 = 1e3;
@@ -53,11 +60,11 @@ struct Row {
 }
 
 impl<S> Problem<S> {
-    /// Measures a route that fills the conjugate times of all starts; "not a number" where it found none.
-    fn measure(&self, tool: &str, asked: Option<f64>, mut fill: impl FnMut(&[S], &mut [f64])) -> Row {
+    /// Measures a route that fills the conjugate times of a block of starts; "not a number" where it found none.
+    fn measure(&self, tool: &str, asked: Option<f64>, size: usize, mut fill: impl FnMut(&[S], &mut [f64])) -> Row {
         let mut t1 = vec![f64::NAN; self.starts.len()];
-        let mut pass = timing::passes(self.starts.len().div_ceil(BLOCK), |block| {
-            let range = block * BLOCK..((block + 1) * BLOCK).min(self.starts.len());
+        let mut pass = timing::passes(self.starts.len().div_ceil(size), |block| {
+            let range = block * size..((block + 1) * size).min(self.starts.len());
             fill(black_box(&self.starts[range.clone()]), black_box(&mut t1[range]));
         });
         let per_point = 1.0 / self.starts.len() as f64;
@@ -72,9 +79,18 @@ impl<S> Problem<S> {
         Row { tool: tool.to_owned(), problem: self.name, asked, pass, error_max, error_median, failures }
     }
 
+    /// Measures a route that takes many starts at once.
+    fn in_lanes<E>(&self, tool: &str, asked: Option<f64>, mut find: impl FnMut(&[S]) -> Vec<Result<f64, E>>) -> Row {
+        self.measure(tool, asked, self.starts.len(), |starts, t1| {
+            for (t, found) in t1.iter_mut().zip(find(starts)) {
+                *t = found.unwrap_or(f64::NAN);
+            }
+        })
+    }
+
     /// Measures a route that takes one start at a time.
     fn one_at_a_time<E>(&self, tool: &str, asked: Option<f64>, mut find: impl FnMut(&S) -> Result<f64, E>) -> Row {
-        self.measure(tool, asked, |starts, t1| {
+        self.measure(tool, asked, BLOCK, |starts, t1| {
             for (start, t) in starts.iter().zip(t1) {
                 *t = find(start).unwrap_or(f64::NAN);
             }
@@ -133,6 +149,11 @@ fn problem<S>(
     Ok(Problem { name, starts, exact })
 }
 
+/// The times of a list of outcomes.
+fn times<T, E>(outcomes: Vec<Result<T, E>>, time: impl Fn(T) -> f64) -> Vec<Result<f64, E>> {
+    outcomes.into_iter().map(|outcome| outcome.map(&time)).collect()
+}
+
 fn serret_andoyer(value: &Value) -> Result<Vec<Row>, Box<dyn Error>> {
     let [a, b, c] = [number(value, "A")?, number(value, "B")?, number(value, "C")?];
     let metric = Metric::new(a, b, c)?;
@@ -156,12 +177,26 @@ fn serret_andoyer(value: &Value) -> Result<Vec<Row>, Box<dyn Error>> {
         by_delta.one_at_a_time("closed form, from delta, t1 alone", None, time_alone),
         by_momenta.one_at_a_time("closed form, from momenta", None, as_point_does),
         by_momenta.one_at_a_time("closed form, from momenta, t1 alone", None, time_alone),
+        by_delta.in_lanes("closed form, from delta, 8 lanes", None, |starts| {
+            times(first_conjugate_locus(&metric, starts), |point| point.t1)
+        }),
+        by_momenta.in_lanes("closed form, from momenta, 8 lanes", None, |starts| {
+            times(first_conjugate_locus(&metric, starts), |point| point.t1)
+        }),
+        by_momenta.in_lanes("closed form, from momenta, t1 alone, 8 lanes", None, |starts| {
+            times(first_conjugate_times(&metric, starts), |time| time.t1)
+        }),
     ];
-    let momenta =
-        problem("SA", value, "t1", |start| Ok([number(start, "y0")?, number(start, "p_x")?, number(start, "p_y")?]))?;
+    let momenta = problem("SA", value, "t1", |start| {
+        let (y0, p_x, p_y) = (number(start, "y0")?, number(start, "p_x")?, number(start, "p_y")?);
+        Ok(FlowStart { inverse_inertia: [a, b, c], y0, p_x, p_y })
+    })?;
     for asked in ASKED {
-        rows.push(momenta.one_at_a_time("Taylor", Some(asked), |&[y0, p_x, p_y]| {
+        rows.push(momenta.one_at_a_time("Taylor", Some(asked), |&FlowStart { y0, p_x, p_y, .. }| {
             serret_andoyer_by_integration(a, b, c, y0, p_x, p_y, 0.0, T_MAX, asked).map(|found| found.t1)
+        }));
+        rows.push(momenta.in_lanes("Taylor, 8 lanes", Some(asked), |starts| {
+            times(serret_andoyer_in_lanes(starts, asked, T_MAX), |found| found.t1)
         }));
     }
     Ok(rows)
@@ -170,6 +205,7 @@ fn serret_andoyer(value: &Value) -> Result<Vec<Row>, Box<dyn Error>> {
 fn spin(value: &Value) -> Result<Vec<Row>, Box<dyn Error>> {
     let k = number(value, "k")?;
     let spin = problem("SPIN", value, "t1", |start| number(start, "p_theta"))?;
+    let spin_starts = problem("SPIN", value, "t1", |start| Ok((k, number(start, "p_theta")?)))?;
     let mut rows = vec![
         spin.one_at_a_time("closed form", None, |&p_theta| -> Result<f64, Box<dyn Error>> {
             Ok(spin_point(&SpinStart::new(black_box(k), p_theta)?)?.t1)
@@ -178,9 +214,24 @@ fn spin(value: &Value) -> Result<Vec<Row>, Box<dyn Error>> {
             Ok(nth_conjugate_time(&SpinStart::new(black_box(k), p_theta)?, 1)?)
         }),
     ];
+    let lane_starts = problem("SPIN", value, "t1", |start| {
+        SpinStart::new(k, number(start, "p_theta")?).map_err(|error| error.to_string())
+    })?;
+    rows.push(
+        lane_starts.in_lanes("closed form, 8 lanes", None, |starts| times(spin_points(starts), |point| point.t1)),
+    );
     for asked in ASKED {
-        rows.push(spin.one_at_a_time("Taylor", Some(asked), |&p_theta| {
+        rows.push(spin.one_at_a_time("Taylor, lift", Some(asked), |&p_theta| {
             spin_by_integration(k, p_theta, asked, T_MAX).map(|(found, _)| found.t1)
+        }));
+        rows.push(spin.one_at_a_time("Taylor, pendulum", Some(asked), |&p_theta| {
+            first_conjugate_time_by_pendulum(k, p_theta, asked, T_MAX).map(|(found, _)| found.t1)
+        }));
+        rows.push(spin_starts.in_lanes("Taylor, lift, 8 lanes", Some(asked), |starts| {
+            times(spin_in_lanes(starts, asked, T_MAX), |(found, _)| found.t1)
+        }));
+        rows.push(spin_starts.in_lanes("Taylor, pendulum, 8 lanes", Some(asked), |starts| {
+            times(first_conjugate_times_by_pendulum(starts, asked, T_MAX), |(found, _)| found.t1)
         }));
     }
     Ok(rows)

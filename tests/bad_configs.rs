@@ -52,8 +52,8 @@ const CASES: &[Case] = &[
     ),
     (
         SERRET_ANDOYER,
-        ["[\"conjugate-locus\"]", "[\"geodesics\"]"],
-        ["scene.effects[0]", "geodesics", "conjugate-locus", ""],
+        ["[\"conjugate-locus\"]", "[\"attitude\"]"],
+        ["scene.effects[0]", "attitude", "conjugate-locus", ""],
     ),
     (SPIN, ["accuracy = \"article\"", "accuracy = \"articel\""], ["scene.accuracy", "articel", "article", ""]),
     // A key that is missing, and no TOML at all.

@@ -2,23 +2,33 @@
 
 #![expect(clippy::panic, reason = "a test that can't read its input fails")]
 
+use polhode::cli::arguments::SCENES;
 use polhode::contract::code;
 use polhode::contract::node::Kind;
 use polhode::contract::plan::{ConfigSource, Plan};
 use polhode::experiments;
-use polhode::experiments::definition::Asked;
+use polhode::experiments::definition::Request;
 use std::collections::BTreeMap;
 
+/// The plans of the committed configs, and of the configs that scenes begin with, which ask for every effect of every metric.
 fn plans() -> Vec<Plan> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/experiments");
-    let plan = |experiment: &experiments::definition::Experiment| {
-        let file = format!("{folder}/{}.toml", experiment.kind);
-        let text = std::fs::read_to_string(&file).unwrap_or_else(|error| panic!("{file}: {error}"));
-        let asked = Asked { measure: true, ..Asked::default() };
-        let planned = experiment.plan_asked(experiment.kind, &ConfigSource { file, text }, asked);
+    let plan = |experiment: &experiments::definition::Experiment, file: String, text: String| {
+        let request = Request { measure: true, ..Request::default() };
+        let planned = experiment.plan_requested(experiment.kind, &ConfigSource { file, text }, request);
         planned.unwrap_or_else(|error| panic!("{error}")).plan
     };
-    experiments::ALL.iter().map(plan).collect()
+    let mut plans = Vec::new();
+    for experiment in experiments::ALL {
+        if experiment.kind == experiments::scene::EXPERIMENT.kind {
+            plans.extend(SCENES.map(|(metric, text)| plan(experiment, metric.to_owned(), text.to_owned())));
+            continue;
+        }
+        let file = format!("{folder}/{}.toml", experiment.kind);
+        let text = std::fs::read_to_string(&file).unwrap_or_else(|error| panic!("{file}: {error}"));
+        plans.push(plan(experiment, file, text));
+    }
+    plans
 }
 
 fn kinds() -> BTreeMap<&'static str, &'static Kind> {

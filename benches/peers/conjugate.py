@@ -99,6 +99,25 @@ def serret_andoyer_euler(start):
     return state, [square * p_x**2, square * two_h / c, *curvature]
 
 
+def serret_andoyer_pendulum(start):
+    """State [z = y', sin 2y, cos 2y, dy, dz] and parameters [alpha, beta, d alpha, d beta]: polhode's own equations."""
+    y0, p_x, p_y = start["y0"], start["p_x"], start["p_y"]
+    a, b, c = SA["A"], SA["B"], SA["C"]
+    sine, cosine = math.sin(y0), math.cos(y0)
+    mass = (c - b) + (b - a) * sine**2
+    z, x_rate = p_y * mass, p_x * (a + (b - a) * cosine**2)
+    alpha = (b - a) / 2 * (p_x**2 * (b - a) * cosine**2 + p_y * z + p_x**2 * (c - b))
+    common = -(b - a) * p_x * z
+    parameters = [alpha, -((b - a) ** 2) * p_x**2 / 2, common * ((c - b) - a), -common * (b - a)]
+    return [z, math.sin(2 * y0), math.cos(2 * y0), 0.0, mass * x_rate], parameters
+
+
+def spin_pendulum(start):
+    """State [v, sin 2 beta, cos 2 beta, r2, r2', d beta, d beta', W] and parameter [g]: polhode's own equations."""
+    k, b = SPIN["k"], start["p_theta"] / (2 * SPIN["k"])
+    return [b, 0.0, 1.0, 0.0, 1.0, 0.0, 1 / (2 * k), 0.0], [1 / k**2 + b**2]
+
+
 def spin_lift(start):
     """State [r, h, dh]."""
     return [1.0, 0.0, 0.0, 0.0, -start["p_theta"], 2.0, 0.0, -1.0, 0.0], []
@@ -130,7 +149,21 @@ def heyoka_systems(hy):
         (h1, -third * (h3 * h2)), (h2, (third - first) * (h1 * h3)), (h3, first * (h1 * h2)),
         (d1, -third * (d3 * h2 + h3 * d2)), (d2, (third - first) * (d1 * h3 + h1 * d3)), (d3, first * (d1 * h2 + h1 * d2)),
     ]
+    z, u, dz = hy.make_vars("z", "u", "dz")
+    su = s * u
+    pendulum = [
+        (z, hy.par[0] * s + hy.par[1] * su), (s, 2.0 * (u * z)), (u, -2.0 * (s * z)), (dy, dz),
+        (dz, hy.par[2] * s + hy.par[3] * su + (2 * hy.par[0] * u + 2 * hy.par[1] * (2 * (u * u) - 1.0)) * dy),
+    ]
+    w2 = (SPIN["k"] - 1) * (SPIN["k"] + 1) / SPIN["k"] ** 2
+    v, rho, db, dv, w = hy.make_vars("v", "rho", "db", "dv", "w")
+    beside = [
+        (v, -w2 / 2 * s), (s, 2.0 * (u * v)), (u, -2.0 * (s * v)), (r2, rho), (rho, -(hy.par[0] * r2 + w2 * (u * r2))),
+        (db, dv), (dv, -w2 * (u * db)), (w, -hy.par[0] * (db * r2)),
+    ]
     return [
+        ("SA", "pendulum", pendulum, dy, serret_andoyer_pendulum),
+        ("SPIN", "pendulum", beside, -w, spin_pendulum),
         ("SA", "angles", angles, dy, serret_andoyer_angles),
         ("SA", "Euler", euler, j, serret_andoyer_euler),
         ("SPIN", "lift", lift, -(r1 * d1 + r2 * d2 + r3 * d3), spin_lift),
@@ -296,7 +329,7 @@ def polhode_rows():
 
 
 def family(tool):
-    return tool.split(",")[0] if tool.startswith("heyoka") else tool
+    return tool.removesuffix(", fast_math") if tool.startswith("heyoka") else tool
 
 
 def best(rows, target, by):

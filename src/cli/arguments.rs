@@ -43,7 +43,7 @@ pub enum Verb {
     Show(ShowArguments),
     /// Compute the first conjugate point of one extremal, or of a table of them
     Point(PointArguments),
-    /// Write a new experiment: a module and its config, ready to run
+    /// Write a new experiment, ready to run: a module and its config, or the config of a scene
     New(NewArguments),
     /// Make a folder to work in: the article's configs, ready to edit and run
     Init(InitArguments),
@@ -272,15 +272,32 @@ pub struct PointArguments {
 /// Options of `new`.
 #[derive(Args, Debug)]
 #[command(before_help = "Examples:
-  polhode new fig10      src/experiments/fig10.rs, experiments/fig10.toml and the word in mod.rs")]
+  polhode new fig10                        src/experiments/fig10.rs, experiments/fig10.toml and the word in mod.rs
+  polhode new --scene spins                experiments/spins.toml: any effects of a metric, no Rust, in any folder
+  polhode new --scene body --metric serret-andoyer
+  polhode new --scene tops --metric rotation-group")]
 pub struct NewArguments {
     /// The new experiment's id: lower-case letters, digits, underscores
     #[arg(value_name = "ID")]
     pub id: String,
+    /// Write the config of a scene instead: a metric, starts, effects; it needs no module
+    #[arg(long)]
+    pub scene: bool,
+    /// The metric of the scene
+    #[arg(long, value_name = "METRIC", requires = "scene", default_value = SCENES[0].0,
+          value_parser = clap::builder::PossibleValuesParser::new(SCENES.map(|(metric, _)| metric)))]
+    pub metric: String,
     /// Folder of the experiment configs [default: experiments/ of the nearest ancestor that has one]
     #[arg(long, value_name = "DIR")]
     pub experiments: Option<PathBuf>,
 }
+
+/// The configs that scenes begin with, by metric; the first is the default.
+pub const SCENES: [(&str, &str); 3] = [
+    ("spin", include_str!("scenes/spin.toml")),
+    ("serret-andoyer", include_str!("scenes/serret-andoyer.toml")),
+    ("rotation-group", include_str!("scenes/rotation-group.toml")),
+];
 
 /// Options of `init`.
 #[derive(Args, Debug)]

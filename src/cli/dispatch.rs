@@ -6,6 +6,7 @@ use crate::cli::exit::Exit;
 use crate::cli::{
     check, completions, figures, gc, graph, init, list, log, new, point, show, verify, version, watch, why,
 };
+use crate::numerics::lanes::dispatch::from_environment;
 use clap::Parser;
 use std::sync::Mutex;
 
@@ -30,6 +31,10 @@ pub fn main() -> Exit {
             *place = Some(panic.to_string());
         }
     }));
+    if let Err(error) = from_environment() {
+        console::message(&format!("error: {error}"));
+        return Exit::Usage;
+    }
     let ended = std::panic::catch_unwind(|| verb(&arguments.verb));
     match ended {
         Ok(Ok(exit)) => exit,

@@ -1,6 +1,7 @@
-//! `polhode new ID`: a new experiment, ready to run: its module, its config, and the word in the list of experiments.
+//! `polhode new ID`: a new experiment, ready to run: its module, its config, and the word in the list of experiments; or, with `--scene`, the
+//! config of a scene, which needs none of the rest.
 
-use crate::cli::arguments::{NewArguments, PlaceArguments};
+use crate::cli::arguments::{NewArguments, PlaceArguments, SCENES};
 use crate::cli::console::{self, ConsoleError};
 use crate::cli::exit::Exit;
 use crate::cli::session::Refused;
@@ -31,9 +32,11 @@ pub fn run(arguments: &NewArguments) -> Result<Exit, ConsoleError> {
                 console::message(&format!("wrote {}", path.display()));
             }
             let id = &arguments.id;
-            console::message(&format!(
-                "next: cargo run -- figures {id}, then edit experiments/{id}.toml and src/experiments/{id}.rs"
-            ));
+            console::message(&if arguments.scene {
+                format!("next: polhode figures {id}, then edit {}", written[0].display())
+            } else {
+                format!("next: cargo run -- figures {id}, then edit experiments/{id}.toml and src/experiments/{id}.rs")
+            });
             Ok(Exit::Success)
         }
         Err(refused) => Ok(refused.tell()),
@@ -55,11 +58,15 @@ fn create(arguments: &NewArguments) -> Result<Vec<PathBuf>, Refused> {
     }
     let place = PlaceArguments { experiments: arguments.experiments.clone(), ..PlaceArguments::default() };
     let workspace = Workspace::find(&place)?;
+    if arguments.scene {
+        return create_scene(id, &arguments.metric, &workspace);
+    }
     let room = workspace.root.join("src").join("experiments");
     let list = room.join("mod.rs");
     let names = std::fs::read_to_string(&list).map_err(|error| {
         usage(format!(
-            "{}: {error}\n  a new experiment is a module of polhode's own source: run this in its repository",
+            "{}: {error}\n  a new experiment is a module of polhode's own source: run this in its repository\n  \
+             a scene needs no module: polhode new --scene {id}",
             list.display()
         ))
     })?;
@@ -75,6 +82,18 @@ fn create(arguments: &NewArguments) -> Result<Vec<PathBuf>, Refused> {
     write(&config, &renamed(CONFIG, id))?;
     write(&list, &names)?;
     Ok(vec![module, config, list])
+}
+
+/// The config of a scene.
+fn create_scene(id: &str, metric: &str, workspace: &Workspace) -> Result<Vec<PathBuf>, Refused> {
+    let text = SCENES.iter().find(|(name, _)| *name == metric).map(|(_, text)| text.replace("ID`", &format!("{id}`")));
+    let text = text.ok_or_else(|| usage(format!("no metric is called {metric:?}")))?;
+    let config = workspace.experiments.join(format!("{id}.toml"));
+    if config.exists() {
+        return Err(usage(format!("{} is there already: nothing was written", config.display())));
+    }
+    write(&config, &text)?;
+    Ok(vec![config])
 }
 
 fn write(path: &Path, text: &str) -> Result<(), Refused> {

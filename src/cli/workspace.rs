@@ -6,7 +6,7 @@ use crate::contract::config::{self, ConfigError};
 use crate::contract::digest::Digest;
 use crate::contract::plan::{ConfigSource, Plan};
 use crate::experiments;
-use crate::experiments::definition::{Asked, MEASURED_FOLDER, PlanError};
+use crate::experiments::definition::{MEASURED_FOLDER, PlanError, Request};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -169,7 +169,7 @@ impl Workspace {
             if !wanted.is_empty() && !wanted.contains(id) {
                 continue;
             }
-            match load_one(id, path, Asked { accuracy: self.accuracy, measure: self.measure }) {
+            match load_one(id, path, Request { accuracy: self.accuracy, measure: self.measure }) {
                 Ok(experiment) => loaded.push(experiment),
                 Err(WorkspaceError::Configs(errors)) => wrong.extend(errors),
                 Err(other) => return Err(other),
@@ -219,7 +219,7 @@ fn sort_key(id: &str) -> (String, u64, String) {
     (stem, number, id.to_owned())
 }
 
-fn load_one(id: &str, path: &Path, asked: Asked) -> Result<Loaded, WorkspaceError> {
+fn load_one(id: &str, path: &Path, request: Request) -> Result<Loaded, WorkspaceError> {
     let file = path.display().to_string();
     let text =
         std::fs::read_to_string(path).map_err(|error| WorkspaceError::Unreadable { path: file.clone(), error })?;
@@ -228,10 +228,11 @@ fn load_one(id: &str, path: &Path, asked: Asked) -> Result<Loaded, WorkspaceErro
         let known: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.kind).collect();
         WorkspaceError::Configs(vec![config::unknown_kind(&file, &text, &known)])
     })?;
-    let planned = experiment.plan_asked(id, &ConfigSource { file, text }, asked).map_err(|error| match error {
-        PlanError::Config(error) => WorkspaceError::Configs(vec![*error]),
-        PlanError::Defect { .. } => WorkspaceError::Defect(error.to_string()),
-    })?;
+    let planned =
+        experiment.plan_requested(id, &ConfigSource { file, text }, request).map_err(|error| match error {
+            PlanError::Config(error) => WorkspaceError::Configs(vec![*error]),
+            PlanError::Defect { .. } => WorkspaceError::Defect(error.to_string()),
+        })?;
     Ok(Loaded {
         plan: planned.plan,
         kind: experiment.kind,

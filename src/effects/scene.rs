@@ -60,10 +60,18 @@ impl Effect {
     }
 }
 
-/// The metrics, and the effects that each supports.
+/// The name of the Serret-Andoyer metric in configs.
+pub const SERRET_ANDOYER: &str = "serret-andoyer";
+/// The name of the spin problem's metric in configs.
+pub const SPIN: &str = "spin";
+/// The name of the metric on SO(3) in configs.
+pub const ROTATION_GROUP: &str = "rotation-group";
+
+/// The metrics, and the effects that each supports: in a scene, and in every figure of that metric. A figure can have effects of its own
+/// beside them.
 pub const METRICS: &[(&str, &[Effect])] = &[
     (
-        "serret-andoyer",
+        SERRET_ANDOYER,
         &[
             Effect::Geodesics,
             Effect::ConjugateLocus,
@@ -74,9 +82,14 @@ pub const METRICS: &[(&str, &[Effect])] = &[
             Effect::Period,
         ],
     ),
-    ("spin", &[Effect::Geodesics, Effect::ConjugateLocus]),
-    ("rotation-group", &[Effect::Attitude, Effect::ConjugateTimes, Effect::Projection]),
+    (SPIN, &[Effect::Geodesics, Effect::ConjugateLocus, Effect::CutLocus, Effect::WaveFront]),
+    (ROTATION_GROUP, &[Effect::Attitude, Effect::ConjugateTimes, Effect::Projection]),
 ];
+
+/// The effects that a metric supports; none for a name that is no metric.
+pub fn supported(metric: &str) -> &'static [Effect] {
+    METRICS.iter().find(|(name, _)| *name == metric).map_or(&[], |(_, effects)| effects)
+}
 
 /// A scene: `M` is the metric's part of the config, `S` the start's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -99,18 +112,20 @@ impl<M, S> Scene<M, S> {
         self.effects.contains(&effect)
     }
 
-    /// Refuses effects that the experiment can't show, repeated ones, and an empty list.
+    /// Refuses effects that neither the experiment itself (`own`) nor its metric supports, repeated ones, and an empty list.
     ///
     /// # Errors
     /// Which one.
-    pub fn validate_effects(&self, supported: &[Effect]) -> Result<(), Invalid> {
+    pub fn validate_effects(&self, own: &[Effect], metric: &str) -> Result<(), Invalid> {
+        let more = supported(metric).iter().filter(|effect| !own.contains(effect));
+        let supported: Vec<Effect> = own.iter().chain(more).copied().collect();
         let names: Vec<&str> = supported.iter().map(|effect| effect.name()).collect();
         let accepted = format!("a list of at least one of: {}", names.join(", "));
         Invalid::unless(!self.effects.is_empty(), "scene.effects", "[]", accepted.as_str())?;
         for (index, effect) in self.effects.iter().enumerate() {
             let key = format!("scene.effects[{index}]");
             if !supported.contains(effect) {
-                let found = format!("{:?}, which this experiment does not show", effect.name());
+                let found = format!("{:?}, which neither this experiment nor its metric has", effect.name());
                 return Err(Invalid::new(key, found, accepted));
             }
             if self.effects[..index].contains(effect) {
@@ -343,6 +358,20 @@ impl SerretAndoyerMetric {
     pub fn half_width(&self) -> f64 {
         let Inertia { a, b, c } = self.serret_andoyer;
         Metric::new(a, b, c).map_or(0.0, |metric| metric.half_width())
+    }
+}
+
+impl SerretAndoyerMetric {
+    /// The largest Clairaut constant `√μ(φ0)` of a start; zero where the inertia is refused.
+    pub fn largest_p_theta(&self, phi0: f64) -> f64 {
+        let Inertia { a, b, c } = self.serret_andoyer;
+        Metric::new(a, b, c).map_or(0.0, |metric| metric.mu(phi0).sqrt())
+    }
+
+    /// The Clairaut constant `A^(−1/2)` of the equator, the largest of all; zero where the inertia is refused.
+    pub fn equator_p_theta(&self) -> f64 {
+        let Inertia { a, b, c } = self.serret_andoyer;
+        Metric::new(a, b, c).map_or(0.0, |metric| metric.equator_clairaut())
     }
 }
 

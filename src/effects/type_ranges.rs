@@ -32,10 +32,6 @@ pub const KIND: Kind = Kind {
 };
 /// The input: a table of kind `trajectory-types`.
 pub const INPUT: &str = "trajectory-types";
-/// How far the end found for type iii may lie from the true one: a bound set after seeing the numbers, its cause not established. Against
-/// k̄ of the same `p_θ` the end lay 1.5e-7 too high for `p_θ` = 3e-5 and 1e-4, 1.4e-7 for 3e-4, and 1.4e-7 too low for 1e-3, which is more
-/// than the bisection's width. Suspected: crossings at a vanishing angle that the polygon loses, or the step [`BEYOND`].
-const SEARCH_RESOLUTION: f64 = 1e-6;
 /// The bisection ends at this width in k.
 const WIDTH: f64 = 1e-10;
 /// How far beyond an end all momenta are examined, in k.
@@ -109,10 +105,9 @@ impl TypeRanges {
             let Some(farther) = others.iter().position(|(shows, _)| *shows) else { break };
             (p_theta, with, without) = (all[farther], beyond, outside);
         }
-        let resolution = if wanted == TrajectoryType::ReturningLoop { SEARCH_RESOLUTION } else { 0.0 };
         Ok(End {
             k: 0.5 * (with + without),
-            error: 0.5 * (with - without).abs() + f64::EPSILON + resolution,
+            error: 0.5 * (with - without).abs() + f64::EPSILON,
             p_theta,
             of_grid: false,
         })
@@ -170,21 +165,11 @@ impl Compute for TypeRanges {
         let table = Table::builder(KIND.name, "range of k in which each type of trajectory occurs")
             .column("type", "", "i, ii, iii or iv", names)
             .column("k_from", "1", "where the type begins", numbers(|end| end.0.k))
-            .column(
-                "error_from",
-                "1",
-                "half the width of the last bisection, and how well self-intersections resolve k",
-                numbers(|end| end.0.error),
-            )
+            .column("error_from", "1", "half the width of the last bisection", numbers(|end| end.0.error))
             .column("from_is_end_of_grid", "", "whether the grid begins there", flags(|end| end.0.of_grid))
             .column_with_gaps("p_theta_from", "1", "the p_θ that shows it first", numbers(|end| end.0.p_theta))
             .column("k_to", "1", "where the type ends", numbers(|end| end.1.k))
-            .column(
-                "error_to",
-                "1",
-                "half the width of the last bisection, and how well self-intersections resolve k",
-                numbers(|end| end.1.error),
-            )
+            .column("error_to", "1", "half the width of the last bisection", numbers(|end| end.1.error))
             .column("to_is_end_of_grid", "", "whether the grid ends there", flags(|end| end.1.of_grid))
             .column(
                 "values_of_k",

@@ -167,11 +167,11 @@ pub const EXPERIMENT: Experiment = Experiment::of::<Cost>();
 
 const PICTURE: Kind = picture_kind(
     "cost_of_effects-picture",
-    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "plot", "table"],
+    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "plot", "table"],
 );
 const MEASURED_PICTURE: Kind = picture_kind(
     "cost_of_effects-measured-picture",
-    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "plot", "table"],
+    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "plot", "table"],
 );
 const FINDINGS: Kind = findings_kind(
     "cost_of_effects-findings",
@@ -181,6 +181,7 @@ const FINDINGS: Kind = findings_kind(
         "experiments/cost_of_effects.rs",
         "experiments/definition.rs",
         "experiments/findings.rs",
+        "experiments/scenes",
         "table",
     ],
 );
@@ -651,8 +652,8 @@ mod tests {
         let text = include_str!("../../experiments/cost_of_effects.toml").to_owned();
         let source = crate::contract::plan::ConfigSource { file: "f".to_owned(), text };
         for measure in [false, true] {
-            let asked = crate::experiments::definition::Asked { accuracy: None, measure };
-            let plan = EXPERIMENT.plan_asked("cost_of_effects", &source, asked).unwrap().plan;
+            let request = crate::experiments::definition::Request { accuracy: None, measure };
+            let plan = EXPERIMENT.plan_requested("cost_of_effects", &source, request).unwrap().plan;
             let measured = plan.nodes.iter().filter(|node| node.compute.kind().measurement).count();
             let exports = plan.exports.iter().filter(|export| export.path.starts_with("measured/")).count();
             assert_eq!((measured, exports), if measure { (3, 4) } else { (0, 0) });

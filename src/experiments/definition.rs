@@ -13,7 +13,8 @@ use crate::contract::plan::{ConfigSource, Export, Plan};
 use crate::contract::value::{Findings, NamedValue};
 use crate::contract::work::Work;
 use crate::experiments::nodes::Nodes;
-use crate::plot::picture::Picture;
+use crate::experiments::scenes::more::Asked;
+use crate::plot::picture::{Picture, Width};
 use crate::table::{Table, Tables};
 use serde::de::DeserializeOwned;
 use serde::{Serialize, Serializer};
@@ -24,6 +25,9 @@ pub const PICTURE_FILE: &str = "picture.svg";
 pub const FINDINGS_FILE: &str = "findings.json";
 /// The name of the node that holds an experiment's values and claims.
 pub const FINDINGS_NODE: &str = "findings";
+
+/// Height of a picture without panels of its own: that of its legend (mm).
+const LEGEND_MM: f64 = 6.0;
 
 /// An experiment, as its module writes it.
 pub trait Definition: 'static {
@@ -44,7 +48,12 @@ pub trait Definition: 'static {
     /// Puts the command line's accuracy in place of the config's.
     fn set_accuracy(params: &mut Self::Params, accuracy: Accuracy);
 
-    /// Asks for nodes.
+    /// Which of the scene's effects are this experiment's own, and what else its metric is asked for: that is computed and drawn beside it.
+    fn asked(_: &Self::Params) -> Asked {
+        Asked::own()
+    }
+
+    /// Asks for nodes. This and what follows is left out where the scene calls for no effect of the experiment's own.
     ///
     /// # Errors
     /// Parameters that can't be turned into nodes.
@@ -84,7 +93,7 @@ pub struct Measured<P> {
 
 /// What is asked of a plan beside what the config says.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Asked {
+pub struct Request {
     /// Put in place of the config's accuracy.
     pub accuracy: Option<Accuracy>,
     /// Whether the experiment's measurements are part of the plan.
@@ -115,7 +124,7 @@ pub struct Experiment {
     pub place: &'static str,
     /// Whether it has measurements.
     pub measures: bool,
-    plan: fn(&str, &ConfigSource, Asked) -> Result<Planned, PlanError>,
+    plan: fn(&str, &ConfigSource, Request) -> Result<Planned, PlanError>,
 }
 
 /// A plan, and the digest of the config it was made from (of its values: layout and comments are free).
@@ -154,31 +163,35 @@ impl Experiment {
     /// # Errors
     /// A wrong config, by file, line, column and key.
     pub fn plan(&self, id: &str, source: &ConfigSource, accuracy: Option<Accuracy>) -> Result<Planned, PlanError> {
-        self.plan_asked(id, source, Asked { accuracy, measure: false })
+        self.plan_requested(id, source, Request { accuracy, measure: false })
     }
 
     /// The same with all that can be asked of a plan.
     ///
     /// # Errors
     /// As [`Experiment::plan`].
-    pub fn plan_asked(&self, id: &str, source: &ConfigSource, asked: Asked) -> Result<Planned, PlanError> {
-        (self.plan)(id, source, asked)
+    pub fn plan_requested(&self, id: &str, source: &ConfigSource, request: Request) -> Result<Planned, PlanError> {
+        (self.plan)(id, source, request)
     }
 }
 
-fn plan<D: Definition>(id: &str, source: &ConfigSource, asked: Asked) -> Result<Planned, PlanError> {
+fn plan<D: Definition>(id: &str, source: &ConfigSource, request: Request) -> Result<Planned, PlanError> {
     let mut params: D::Params =
         config::read(&source.file, &source.text).map_err(|error| PlanError::Config(Box::new(error)))?;
     let defect = |error: NodeError| PlanError::Defect { id: id.to_owned(), error };
     let undescribable = |error: manifest::NotDescribable| defect(NodeError::new(error.to_string()));
-    if let Some(accuracy) = asked.accuracy {
+    if let Some(accuracy) = request.accuracy {
         D::set_accuracy(&mut params, accuracy);
     }
     let mut config = Manifest { lines: manifest::describe(&params).map_err(undescribable)? };
     config.push(manifest::Part::Kind, "", manifest::Leaf::Text(D::ID.to_owned()));
 
     let mut nodes = Nodes::new(id);
-    D::nodes(&params, &mut nodes).map_err(defect)?;
+    let asked = D::asked(&params);
+    if asked.own {
+        D::nodes(&params, &mut nodes).map_err(defect)?;
+    }
+    asked.nodes(&mut nodes).map_err(defect)?;
     let (nodes, tables) = nodes.finish();
     let mut plan = Plan { id: id.to_owned(), config: source.clone(), nodes, exports: Vec::new() };
     for (_, address) in &tables {
@@ -188,12 +201,12 @@ fn plan<D: Definition>(id: &str, source: &ConfigSource, asked: Asked) -> Result<
             artifact: crate::effects::product::TABLE.to_owned(),
         });
     }
-    if let Some(measured) = D::MEASURED.filter(|_| asked.measure) {
+    if let Some(measured) = D::MEASURED.filter(|_| request.measure) {
         add_measurements(id, &params, &measured, &mut plan).map_err(defect)?;
     }
     let readers: [(&str, &str, Node); 2] = [
         (PICTURE_FILE, "svg", {
-            let reader = Picturing { id: id.to_owned(), params: params.clone(), kind: D::PICTURE, draw: D::picture };
+            let reader = Picturing { id: id.to_owned(), params: params.clone(), kind: D::PICTURE, draw: drawn::<D> };
             Node::new(Address::new(id, "picture"), reader).map_err(undescribable)?.origin(CONFIG, "")
         }),
         (FINDINGS_FILE, "json", {
@@ -248,6 +261,13 @@ fn read_tables(inputs: &Inputs) -> Result<Tables, NodeError> {
         tables.insert(name, table).map_err(|error| NodeError::new(error.to_string()))?;
     }
     Ok(tables)
+}
+
+/// The picture of what the scene asks for: the experiment's own, with what else is computed drawn under it.
+fn drawn<D: Definition>(params: &D::Params, tables: &Tables) -> Result<Picture, NodeError> {
+    let asked = D::asked(params);
+    let own = if asked.own { D::picture(params, tables)? } else { Picture::new(Width::Double, LEGEND_MM, D::TITLE) };
+    asked.drawn_under(own, tables)
 }
 
 /// The node that draws.
@@ -312,8 +332,16 @@ impl<D: Definition> Compute for Finding<D> {
 
     fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
         let tables = read_tables(inputs)?;
-        let findings =
-            Findings { values: D::values(&self.params, &tables)?, claims: D::claims(&self.params, &tables)? };
+        let asked = D::asked(&self.params);
+        let mut findings = if asked.own {
+            Findings { values: D::values(&self.params, &tables)?, claims: D::claims(&self.params, &tables)? }
+        } else {
+            Findings::default()
+        };
+        if let Some(more) = &asked.more {
+            findings.values.extend(more.values(&tables)?);
+        }
+        findings.claims.extend(asked.claims(&tables)?);
         for value in &findings.values {
             if !(value.value.is_finite() && value.error.is_finite()) {
                 return Err(NodeError::new(format!("value {} or its error is not finite", value.name)));

@@ -8,20 +8,22 @@
 //! Proposition 3.21, as they were read, are judged from numbers.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{largest, quantities, unread};
+use super::findings::{quantities, unread};
 use super::nodes::Nodes;
+use super::scenes::more::Asked;
+use super::scenes::curvature::curvature_panel;
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, FanStart, Inertia, Scene, SerretAndoyerMetric};
+use crate::effects::scene::{Effect, FanStart, Inertia, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
 use crate::effects::serret_andoyer::curvature::Curvature;
 use crate::effects::serret_andoyer::curvature_profile::CurvatureProfile;
 use crate::effects::serret_andoyer::geodesics::{self, Geodesics};
 use crate::plot::axis::Axis;
-use crate::plot::mark::{At, Band, Curve, DirectLabel, Points, RuleLine, Side};
-use crate::plot::picture::{Inset, Panel, Picture, Place, Width};
+use crate::plot::mark::{Band, Curve, Points, RuleLine};
+use crate::plot::picture::{Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::{Table, Tables};
 use serde::{Deserialize, Serialize};
@@ -57,7 +59,7 @@ impl Validate for Params {
     fn validate(&self) -> Result<(), Invalid> {
         self.scene.metric.validate()?;
         self.scene.start.validate(self.scene.metric.serret_andoyer)?;
-        self.scene.validate_effects(&[Effect::Curvature, Effect::Geodesics])?;
+        self.scene.validate_effects(&OWN, SERRET_ANDOYER)?;
         self.other_body.validate("other_body")?;
         let Shown { curvature_points, points, turns, strips } = self.picture;
         let odd = (3..=9999).contains(&curvature_points) && curvature_points % 2 == 1;
@@ -68,11 +70,14 @@ impl Validate for Params {
     }
 }
 
+/// The effects that this experiment itself shows.
+const OWN: [Effect; 2] = [Effect::Curvature, Effect::Geodesics];
+
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig1>();
 
-const PICTURE: Kind = picture_kind("fig1-picture", &["experiments/definition.rs", "experiments/fig1.rs", "experiments/findings.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig1-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/fig1.rs", "experiments/findings.rs", "table"]);
+const PICTURE: Kind = picture_kind("fig1-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig1.rs", "experiments/findings.rs", "plot", "table"]);
+const FINDINGS: Kind = findings_kind("fig1-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig1.rs", "experiments/findings.rs", "table"]);
 
 struct Fig1;
 
@@ -87,6 +92,10 @@ impl Definition for Fig1 {
 
     fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
         params.scene.accuracy = accuracy;
+    }
+
+    fn asked(params: &Params) -> Asked {
+        Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0.into()), Some(&params.scene.start.p_theta))
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
@@ -302,54 +311,6 @@ fn edge_evidence(params: &Params, own: &Table, other: &Table) -> Result<Evidence
     let [inside, outside] =
         sides.map(|(counterexamples, cases, example)| Test::None { counterexamples, cases, example });
     Ok(Evidence::OnlyWhen { condition: "B > 2AC/(A + C)".to_owned(), inside, outside })
-}
-
-fn curvature_panel(table: &Table, profile: &Table) -> Result<Panel, NodeError> {
-    let column = |name: &str| table.f64s(name).map_err(unread);
-    let value = |name: &str| profile.lookup("quantity", name, "value").map_err(unread);
-    let phi = column("phi")?;
-    let points = |y: &[f64]| phi.iter().copied().zip(y.iter().copied()).collect::<Vec<_>>();
-    let (edge, zero, least) = (value("half_width")?, value("phi_zero")?, value("phi_minimum")?);
-    let (top, bottom, at_edge) =
-        (value("curvature_maximum")?, value("curvature_minimum")?, value("curvature_at_edge")?);
-    let ticks = [
-        (-edge, "−*K*/*α*"),
-        (-zero, "−*φ*_1"),
-        (0.0, "0"),
-        (zero, "*φ*_1"),
-        (edge, "*K*/*α*"),
-    ];
-    let highest = largest(table, "mu")?.max(top);
-    // The minimum and the edge: so close in height that only a magnified part tells them apart.
-    let (near, depth) = (edge - least, at_edge - bottom);
-    let inset = (near > 0.0).then(|| {
-        let (x, y) = ((least - 1.6 * near, edge), (bottom - 1.2 * depth, at_edge + 2.2 * depth));
-        let mut inset = Inset::new(x, y, Place::At(0.68, 0.33), (0.3, 0.36));
-        inset.x = inset.x.ticks_at([(least, "*φ*_{\\*}"), (edge, "*K*/*α*")]);
-        inset
-    });
-    let mut panel = Panel::new(
-        Axis::new("*φ*").fixed(-1.06 * edge, 1.06 * edge).ticks_at(ticks),
-        Axis::new("*μ* (length^2), *G* (1/length^2)").fixed(1.35 * bottom, 1.08 * highest),
-    )
-    .mark(RuleLine::horizontal(Role::Reference, 0.0))
-    .mark(Curve::new(Role::Metric, points(column("mu")?)).label(DirectLabel::new("*μ*(*φ*)").at(At::Fraction(0.62))))
-    .mark(
-        Curve::new(Role::Curvature, points(column("curvature")?))
-            .label(DirectLabel::new("*G*(*φ*)").at(At::Fraction(0.4)).side(Side::Left)),
-    )
-    .mark(Points::new(Role::Zero, vec![(-zero, 0.0), (zero, 0.0)]).legend("zeros of *G*"))
-    .mark(
-        Points::new(
-            Role::Extremum,
-            vec![(0.0, top), (-least, bottom), (least, bottom), (-edge, at_edge), (edge, at_edge)],
-        )
-        .legend("extrema of *G*"),
-    );
-    if let Some(inset) = inset {
-        panel = panel.inset(inset);
-    }
-    Ok(panel)
 }
 
 fn extremals_panel(params: &Params, table: &Table, profile: Option<&Table>) -> Result<Panel, NodeError> {

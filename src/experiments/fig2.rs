@@ -9,19 +9,18 @@
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::findings::unread;
 use super::nodes::Nodes;
+use super::scenes::more::Asked;
+use super::scenes::potential::{Member, member, members, potential_panel};
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, Phi0Family, Scene, SerretAndoyerMetric};
+use crate::effects::scene::{Effect, Inertia, Phi0Family, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
 use crate::effects::serret_andoyer::geodesics::{EQUATOR, OSCILLATING, SEPARATRIX};
 use crate::effects::serret_andoyer::potential::{FAMILY, Potential, START};
-use crate::plot::axis::Axis;
-use crate::plot::mark::{Area, At, Curve, DirectLabel, Points, RuleLine, Side};
-use crate::plot::picture::{Panel, Picture, Width};
-use crate::plot::role::Role;
-use crate::table::{Table, Tables};
+use crate::plot::picture::{Picture, Width};
+use crate::table::Tables;
 use serde::{Deserialize, Serialize};
 
 /// Parameters.
@@ -46,50 +45,23 @@ impl Validate for Params {
     fn validate(&self) -> Result<(), Invalid> {
         self.scene.metric.validate()?;
         self.scene.start.validate(self.scene.metric.serret_andoyer)?;
-        self.scene.validate_effects(&[Effect::Potential])?;
+        self.scene.validate_effects(&OWN, SERRET_ANDOYER)?;
         let points = self.picture.points;
         let odd = (3..=9999).contains(&points) && points % 2 == 1;
         Invalid::unless(odd, "picture.points", points, "an odd number from 3 to 9999")
     }
 }
 
+/// The effects that this experiment itself shows.
+const OWN: [Effect; 1] = [Effect::Potential];
+
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig2>();
 
-const PICTURE: Kind = picture_kind("fig2-picture", &["experiments/definition.rs", "experiments/fig2.rs", "experiments/findings.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig2-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/fig2.rs", "experiments/findings.rs", "table"]);
+const PICTURE: Kind = picture_kind("fig2-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig2.rs", "experiments/findings.rs", "plot", "table"]);
+const FINDINGS: Kind = findings_kind("fig2-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig2.rs", "experiments/findings.rs", "table"]);
 
 struct Fig2;
-
-/// One potential of the table.
-struct Member {
-    curve: String,
-    class: String,
-    p_theta: f64,
-    points: Vec<(f64, f64)>,
-}
-
-fn members(table: &Table) -> Result<Vec<Member>, NodeError> {
-    let (curve, class) = (table.texts("curve").map_err(unread)?, table.texts("class").map_err(unread)?);
-    let column = |name: &str| table.f64s(name).map_err(unread);
-    let (p_theta, phi, potential) = (column("p_theta")?, column("phi")?, column("potential")?);
-    let mut members: Vec<Member> = Vec::new();
-    for row in 0..table.rows() {
-        // φ runs upwards inside a curve.
-        if row == 0 || phi[row] < phi[row - 1] {
-            let (curve, class) = (curve[row].clone(), class[row].clone());
-            members.push(Member { curve, class, p_theta: p_theta[row], points: Vec::new() });
-        }
-        if let Some(member) = members.last_mut() {
-            member.points.push((phi[row], potential[row]));
-        }
-    }
-    Ok(members)
-}
-
-fn member<'a>(members: &'a [Member], curve: &str) -> Result<&'a Member, NodeError> {
-    members.iter().find(|m| m.curve == curve).ok_or_else(|| NodeError::new(format!("no potential {curve}")))
-}
 
 impl Definition for Fig2 {
     type Params = Params;
@@ -102,6 +74,10 @@ impl Definition for Fig2 {
 
     fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
         params.scene.accuracy = accuracy;
+    }
+
+    fn asked(params: &Params) -> Asked {
+        Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0.into()), Some(&params.scene.start.p_theta))
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
@@ -121,59 +97,17 @@ impl Definition for Fig2 {
 
     fn picture(params: &Params, tables: &Tables) -> Result<Picture, NodeError> {
         let members = members(tables.get("potential").map_err(unread)?)?;
-        let (separatrix, equator, start) =
-            (member(&members, SEPARATRIX)?, member(&members, EQUATOR)?, member(&members, START)?);
-        let edge = separatrix.points.last().map_or(0.0, |point| point.0);
-        let phi0 = params.scene.start.phi0;
-        let lowest = members.iter().flat_map(|m| &m.points).map(|p| p.1).fold(f64::INFINITY, f64::min);
-        let highest = members.iter().flat_map(|m| &m.points).map(|p| p.1).fold(0.0, f64::max);
-        let margin = 0.06 * (highest - lowest);
-        let mut panel = Panel::new(
-            Axis::new("*φ*").fixed(-edge, edge).ticks_at([
-                (-edge, "−*K*/*α*".to_owned()),
-                (phi0, "*φ*_0".to_owned()),
-                (0.0, "0".to_owned()),
-                (-phi0, "−*φ*_0".to_owned()),
-                (edge, "*K*/*α*".to_owned()),
-            ]),
-            Axis::new("*V*(*φ*, *p*_*θ*)").fixed(lowest - margin, highest + margin),
-        )
-        .mark(
-            Area::new(Role::OscillationZone, separatrix.points.clone(), equator.points.clone())
-                .legend("oscillating, *B*^{−1/2} < *p*_*θ* < *A*^{−1/2}"),
-        )
-        .mark(
-            Area::new(Role::StartZone, separatrix.points.clone(), start.points.clone())
-                .legend("of these, those that start at *φ*_0"),
-        )
-        .mark(RuleLine::horizontal(Role::Reference, 1.0))
-        .mark(RuleLine::vertical(Role::Reference, phi0));
-        for (role, curve, label, at, side) in [
-            (Role::Separatrix, separatrix, "separatrix, *B*^{−1/2}", 0.5, Side::Below),
-            (Role::Equator, equator, "equator, *A*^{−1/2}", 0.5, Side::Above),
-            (Role::Potential, start, "(2/*z*(*φ*_0))^{1/2}", 0.88, Side::AboveLeft),
-        ] {
-            let label = DirectLabel::new(label).at(At::Fraction(at)).side(side);
-            panel = panel.mark(Curve::new(role, curve.points.clone()).label(label));
-        }
-        let family: Vec<&Member> = members.iter().filter(|m| m.curve == FAMILY).collect();
-        let last = family.len().saturating_sub(1).max(1) as f64;
-        for (i, member) in family.iter().enumerate() {
-            let text = format!("{}", member.p_theta);
-            let label = DirectLabel::new(text).at(At::Fraction(0.86));
-            panel =
-                panel.mark(Curve::new(Role::Potential, member.points.clone()).tone(i as f64 / last).label(label));
-        }
-        let panel = panel.mark(Points::new(Role::Start, vec![(phi0, 1.0)]));
+        let panel = potential_panel(&members, params.scene.start.phi0)?;
         let Inertia { a, b, c } = params.scene.metric.serret_andoyer;
         Ok(Picture::new(Width::Single, 88.0, "Potentials of the motion in φ")
             .caption(format!(
                 "Potentials V(φ, p_θ) = p_θ²/μ(φ) of the motion in φ at arc length, φ'² + V = 1 (section 3.3.3), over the strip |φ| ≤ \
                  K(k)/α; A = {a}, B = {b}, C = {c}. An extremal moves where V < 1 and turns where V = 1 (dashed). Grey: potentials of \
                  oscillating extremals, between the separatrix p_θ = B^(−1/2), whose largest value is 1 at the edges, and the equator \
-                 p_θ = A^(−1/2), whose least value is 1. Darker: those of them that start at φ0 = {phi0} (a choice: the article states \
+                 p_θ = A^(−1/2), whose least value is 1. Darker: those of them that start at φ0 = {} (a choice: the article states \
                  none), up to p_θ = (2/z(φ0))^(1/2), which turns there (cross). At the curves: p_θ. Below the separatrix \
                  extremals rotate. {} curves of {} points, closed form, relative error 1e-15.",
+                params.scene.start.phi0,
                 members.len(),
                 params.picture.points
             ))

@@ -11,13 +11,15 @@
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::findings::{largest_route_difference, routes_agree, unread};
 use super::nodes::Nodes;
+use super::scenes::more::Asked;
+use super::scenes::curves::{curves, minus, mirrored};
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::sweep::Sweep;
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, Phi0Start, Scene, SerretAndoyerMetric};
+use crate::effects::scene::{Effect, Inertia, Phi0Start, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
 use crate::effects::serret_andoyer::by_integration::{self, ConjugatePointsByIntegration};
 use crate::effects::serret_andoyer::conjugate_locus::{ConjugateLocus, Spacing};
 use crate::effects::serret_andoyer::cut_locus::CutLocus;
@@ -98,7 +100,7 @@ impl Validate for Params {
     fn validate(&self) -> Result<(), Invalid> {
         self.scene.metric.validate()?;
         self.scene.start.validate(self.scene.metric.half_width())?;
-        self.scene.validate_effects(&SHOWN)?;
+        self.scene.validate_effects(&OWN, SERRET_ANDOYER)?;
         let LocusSpacing { smallest, cusp, tail } = self.spacing;
         let accepted = "a number from 1e-13 to 0.2";
         Invalid::number((1e-13..=0.2).contains(&smallest), "spacing.smallest", smallest, accepted)?;
@@ -118,14 +120,14 @@ impl Validate for Params {
     }
 }
 
-/// What this experiment can show.
-const SHOWN: [Effect; 4] = [Effect::ConjugateLocus, Effect::CutLocus, Effect::WaveFront, Effect::Geodesics];
+/// The effects that this experiment itself shows.
+const OWN: [Effect; 4] = [Effect::ConjugateLocus, Effect::CutLocus, Effect::WaveFront, Effect::Geodesics];
 
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig3>();
 
-const PICTURE: Kind = picture_kind("fig3-picture", &["experiments/definition.rs", "experiments/fig3.rs", "experiments/findings.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig3-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/fig3.rs", "experiments/findings.rs", "table"]);
+const PICTURE: Kind = picture_kind("fig3-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig3.rs", "experiments/findings.rs", "plot", "table"]);
+const FINDINGS: Kind = findings_kind("fig3-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig3.rs", "experiments/findings.rs", "table"]);
 
 struct Fig3;
 
@@ -140,6 +142,10 @@ impl Definition for Fig3 {
 
     fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
         params.scene.accuracy = accuracy;
+    }
+
+    fn asked(params: &Params) -> Asked {
+        Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0), None)
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
@@ -372,10 +378,6 @@ fn first_crossings(params: &Params, tables: &Tables, phi0: f64) -> Result<Vec<Fi
     Ok(first)
 }
 
-fn mirrored(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    points.iter().map(|(theta, phi)| (-theta, *phi)).collect()
-}
-
 /// One start: the strip with loci, separatrices and fronts, and the cusp magnified.
 fn strip_panel(params: &Params, tables: &Tables, phi0: f64) -> Result<Panel, NodeError> {
     let half_width = params.scene.metric.half_width();
@@ -392,7 +394,7 @@ fn strip_panel(params: &Params, tables: &Tables, phi0: f64) -> Result<Panel, Nod
     }
     if params.scene.asks_for(Effect::Geodesics) {
         let table = tables.get(&name("separatrix", phi0)).map_err(unread)?;
-        for points in curves(table)? {
+        for points in curves(table, "curve")? {
             panel = panel
                 .mark(Curve::new(Role::Separatrix, mirrored(&points)).legend("separatrices, *p*_*θ* = ±*B*^{−1/2}"))
                 .mark(Curve::new(Role::Separatrix, points).legend("separatrices, *p*_*θ* = ±*B*^{−1/2}"));
@@ -467,27 +469,6 @@ fn with_fronts(
         panel = panel.mark(Points::new(Role::SelfIntersection, points).legend("self-crossings of the fronts"));
     }
     Ok(panel)
-}
-
-/// The curves of a table of extremals.
-fn curves(table: &Table) -> Result<Vec<Vec<(f64, f64)>>, NodeError> {
-    let ids = table.ints("curve").map_err(unread)?;
-    let (theta, phi) = (table.f64s("theta").map_err(unread)?, table.f64s("phi").map_err(unread)?);
-    let mut curves: Vec<Vec<(f64, f64)>> = Vec::new();
-    for row in 0..table.rows() {
-        if row == 0 || ids[row] != ids[row - 1] {
-            curves.push(Vec::new());
-        }
-        if let Some(curve) = curves.last_mut() {
-            curve.push((theta[row], phi[row]));
-        }
-    }
-    Ok(curves)
-}
-
-/// A number with a minus sign for print.
-fn minus(x: f64) -> String {
-    format!("{x}").replace('-', "−")
 }
 
 fn caption(params: &Params, tables: &Tables) -> Result<String, NodeError> {

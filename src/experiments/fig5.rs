@@ -10,6 +10,7 @@
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::nodes::Nodes;
+use super::scenes::more::Asked;
 use super::spin_branches::{
     Branch, ask_for_branch, ask_for_double_points, contact, cusp_values, double_point_values, double_points,
     largest_route_difference, no_counterexample, routes_agree, switches, unread, validate_panels,
@@ -20,7 +21,7 @@ use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::sweep::Sweep;
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{BranchStart, Effect, Scene, SpinMetric};
+use crate::effects::scene::{BranchStart, Effect, Scene, SpinMetric, SPIN};
 use crate::effects::spin::loops::Loops;
 use crate::plot::axis::Axis;
 use crate::plot::mark::{Curve, Points, RuleLine};
@@ -95,7 +96,7 @@ impl Validate for Params {
         let sweep = &self.scene.metric.spin.k;
         sweep.validate_each("scene.metric.spin.k", "1 <= k <= 3 (Fig. 7 is for k < 1)", |k| (1.0..=3.0).contains(&k))?;
         self.scene.start.validate()?;
-        self.scene.validate_effects(&[Effect::ConjugateLocus])?;
+        self.scene.validate_effects(&OWN, SPIN)?;
         self.loops.k.validate_each("loops.k", "1 <= k <= 3", |k| (1.0..=3.0).contains(&k))?;
         let count = self.loops.k.count();
         Invalid::unless(count <= 400, "loops.k", format_args!("{count} values"), "at most 400 values")?;
@@ -107,14 +108,17 @@ impl Validate for Params {
     }
 }
 
+/// The effects that this experiment itself shows.
+const OWN: [Effect; 1] = [Effect::ConjugateLocus];
+
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig5>();
 
 const PICTURE: Kind =
-    picture_kind("fig5-picture", &["experiments/definition.rs", "experiments/fig5.rs", "experiments/spin_branches.rs", "plot", "table"]);
+    picture_kind("fig5-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig5.rs", "experiments/spin_branches.rs", "plot", "table"]);
 const FINDINGS: Kind = findings_kind(
     "fig5-findings",
-    &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/fig5.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"],
+    &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig5.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"],
 );
 const LOOPS: &str = "loops";
 
@@ -164,6 +168,10 @@ impl Definition for Fig5 {
 
     fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
         params.scene.accuracy = accuracy;
+    }
+
+    fn asked(params: &Params) -> Asked {
+        Asked::spin(&params.scene, &OWN, Some(params.scene.start.p_theta))
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {

@@ -12,12 +12,13 @@
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::nodes::Nodes;
+use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, EquatorStarts, Scene, SpinMetric};
+use crate::effects::scene::{Effect, EquatorStarts, Scene, SpinMetric, SPIN};
 use crate::effects::switch_points::{EQUATOR, POLE, SwitchPoints};
 use crate::effects::theta_turning_points::ThetaTurningPoints;
 use crate::effects::trajectory_types::TrajectoryTypes;
@@ -75,7 +76,7 @@ impl Validate for Params {
         let ascending = values.len() >= 2 && values.is_sorted();
         Invalid::unless(ascending, "scene.metric.spin.k", format!("{values:?}"), "at least two values, ascending")?;
         self.scene.start.p_theta.validate_each("scene.start.p_theta", "p_theta > 0", |p| p > 0.0)?;
-        self.scene.validate_effects(&[Effect::TrajectoryTypes, Effect::Geodesics])?;
+        self.scene.validate_effects(&OWN, SPIN)?;
         let Types { decrease_tolerance, smallest_p_theta, switch_points_to } = self.types;
         let right = decrease_tolerance > 0.0 && decrease_tolerance < PI;
         Invalid::number(right, "types.decrease_tolerance", decrease_tolerance, "an angle above 0, below π")?;
@@ -91,11 +92,14 @@ impl Validate for Params {
     }
 }
 
+/// The effects that this experiment itself shows.
+const OWN: [Effect; 2] = [Effect::TrajectoryTypes, Effect::Geodesics];
+
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig6>();
 
-const PICTURE: Kind = picture_kind("fig6-picture", &["experiments/definition.rs", "experiments/fig6.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig6-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/fig6.rs", "table"]);
+const PICTURE: Kind = picture_kind("fig6-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/fig6.rs", "plot", "table"]);
+const FINDINGS: Kind = findings_kind("fig6-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/fig6.rs", "table"]);
 const GRID: &str = "trajectory-types";
 const RANGES: &str = "type-ranges";
 const SWITCHES: &str = "switch-points";
@@ -123,6 +127,10 @@ impl Definition for Fig6 {
 
     fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
         params.scene.accuracy = accuracy;
+    }
+
+    fn asked(params: &Params) -> Asked {
+        Asked::spin(&params.scene, &OWN, None)
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
@@ -653,7 +661,7 @@ mod tests {
             ("smallest_p_theta = 1e-4", "smallest_p_theta = 0", "types.smallest_p_theta"),
             ("switch_points_to = 1.5", "switch_points_to = 0.5", "types.switch_points_to"),
             ("t_end = 16.0", "t_end = -1", "example.t_end"),
-            ("\"geodesics\"", "\"cut-locus\"", "scene.effects[1]"),
+            ("\"geodesics\"", "\"attitude\"", "scene.effects[1]"),
         ] {
             let refused = params(from, to).unwrap_err();
             assert!(refused.contains(key), "{refused}");

@@ -9,6 +9,8 @@
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::nodes::Nodes;
+use super::scenes::more::Asked;
+use super::scenes::curves::curves;
 use super::spin_branches::{
     Branch, ask_for_branch, contact, cusp_inset, cusp_values, largest_route_difference, name_of, no_counterexample, origins, other_half,
     routes_agree, turned, unread,
@@ -18,14 +20,14 @@ use crate::contract::claim::Claim;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{BranchStart, Effect, Scene, SpinMetric};
+use crate::effects::scene::{BranchStart, Effect, Scene, SpinMetric, SPIN};
 use crate::effects::spin::by_integration::tolerance;
 use crate::effects::spin::geodesics::Geodesics;
 use crate::plot::axis::Axis;
 use crate::plot::mark::{Curve, Points, RuleLine};
 use crate::plot::picture::{Layout, Panel, Picture, Place, Width};
 use crate::plot::role::Role;
-use crate::table::{Table, Tables};
+use crate::table::Tables;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -60,38 +62,25 @@ impl Validate for Params {
             "at most 12 values: one panel each",
         )?;
         self.scene.start.validate()?;
-        self.scene.validate_effects(&[Effect::Geodesics, Effect::ConjugateLocus])?;
+        self.scene.validate_effects(&OWN, SPIN)?;
         let Trajectories { count, step } = self.trajectories;
         Invalid::unless((1..=100).contains(&count), "trajectories.count", count, "1 to 100")?;
         Invalid::number((1e-3..=0.5).contains(&step), "trajectories.step", step, "a number from 0.001 to 0.5 (radians)")
     }
 }
 
+/// The effects that this experiment itself shows.
+const OWN: [Effect; 2] = [Effect::Geodesics, Effect::ConjugateLocus];
+
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig7>();
 
-const PICTURE: Kind = picture_kind("fig7-picture", &["experiments/definition.rs", "experiments/fig7.rs", "experiments/spin_branches.rs", "plot", "table"]);
+const PICTURE: Kind = picture_kind("fig7-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig7.rs", "experiments/spin_branches.rs", "plot", "table"]);
 const FINDINGS: Kind =
-    findings_kind("fig7-findings", &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/fig7.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"]);
+    findings_kind("fig7-findings", &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig7.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"]);
 const GEODESICS: &str = "geodesics";
 
 struct Fig7;
-
-/// The curves of a table of geodesics, one for each extremal.
-fn curves(table: &Table) -> Result<Vec<Vec<(f64, f64)>>, NodeError> {
-    let (index, theta) = (table.ints("index").map_err(unread)?, table.f64s("theta").map_err(unread)?);
-    let phi = table.f64s("phi").map_err(unread)?;
-    let mut curves: Vec<Vec<(f64, f64)>> = Vec::new();
-    for row in 0..table.rows() {
-        if row == 0 || index[row] != index[row - 1] {
-            curves.push(Vec::new());
-        }
-        if let Some(curve) = curves.last_mut() {
-            curve.push((theta[row], phi[row]));
-        }
-    }
-    Ok(curves)
-}
 
 /// How far θ falls in all along a curve.
 fn decrease(curve: &[(f64, f64)]) -> f64 {
@@ -116,7 +105,7 @@ fn panel(params: &Params, tables: &Tables, k: f64) -> Result<Panel, NodeError> {
     if params.scene.asks_for(Effect::Geodesics) {
         let table = tables.get(&name_of(GEODESICS, k)).map_err(unread)?;
         let text = "extremals up to their first conjugate points";
-        panel = panel.marks(curves(table)?.into_iter().map(|points| Curve::new(Role::Geodesic, points).legend(text)));
+        panel = panel.marks(curves(table, "index")?.into_iter().map(|points| Curve::new(Role::Geodesic, points).legend(text)));
     }
     if params.scene.asks_for(Effect::ConjugateLocus) {
         let branch = Branch::of(tables, k)?;
@@ -147,12 +136,16 @@ impl Definition for Fig7 {
         params.scene.accuracy = accuracy;
     }
 
+    fn asked(params: &Params) -> Asked {
+        Asked::spin(&params.scene, &OWN, Some(params.scene.start.p_theta))
+    }
+
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
         let (sweep, p_theta) = (&params.scene.metric.spin.k, params.scene.start.p_theta);
         for (index, k) in sweep.values().into_iter().enumerate() {
             if params.scene.asks_for(Effect::Geodesics) {
                 let Trajectories { count, step } = params.trajectories;
-                let geodesics = Geodesics { k, p_theta, count, step, tolerance: tolerance(params.scene.accuracy) };
+                let geodesics = Geodesics { k, p_theta: p_theta.into(), count, step, tolerance: tolerance(params.scene.accuracy) };
                 let mut origins = origins(sweep, index);
                 origins.push(("count", "trajectories.count".to_owned()));
                 origins.push(("step", "trajectories.step".to_owned()));
@@ -214,7 +207,7 @@ impl Definition for Fig7 {
             let mut cases = Vec::new();
             for k in params.scene.metric.spin.k.values() {
                 let table = tables.get(&name_of(GEODESICS, k)).map_err(unread)?;
-                let falls = curves(table)?.iter().map(|curve| decrease(curve)).fold(0.0, f64::max);
+                let falls = curves(table, "index")?.iter().map(|curve| decrease(curve)).fold(0.0, f64::max);
                 cases.push((falls > 1e-6, format!("k = {k:?}: the largest decrease is {falls:e}")));
             }
             claims.push(no_counterexample(

@@ -9,6 +9,7 @@
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::nodes::Nodes;
+use super::scenes::more::Asked;
 use super::spin_branches::{
     Branch, ask_for_branch, ask_for_double_points, contact, cusp_values, double_point_values, double_points,
     largest_route_difference, no_counterexample, routes_agree, switches, validate_panels,
@@ -18,7 +19,7 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{BranchStart, Effect, Scene, SpinMetric};
+use crate::effects::scene::{BranchStart, Effect, Scene, SpinMetric, SPIN};
 use crate::plot::mark::{SphereCurve, SpherePoints};
 use crate::plot::picture::{Panel, Picture, View, Width};
 use crate::plot::role::Role;
@@ -54,7 +55,7 @@ impl Validate for Params {
         let sweep = &self.scene.metric.spin.k;
         sweep.validate_each("scene.metric.spin.k", "0 < k <= 3", |k| k <= 3.0)?;
         self.scene.start.validate()?;
-        self.scene.validate_effects(&[Effect::ConjugateLocus])?;
+        self.scene.validate_effects(&OWN, SPIN)?;
         validate_panels(sweep, &self.panels.iter().map(|panel| &panel.k).collect::<Vec<_>>(), 3)?;
         for (i, Sphere { longitude, latitude, .. }) in self.panels.iter().enumerate() {
             let key = |name: &str| format!("panels[{i}].{name}");
@@ -65,14 +66,17 @@ impl Validate for Params {
     }
 }
 
+/// The effects that this experiment itself shows.
+const OWN: [Effect; 1] = [Effect::ConjugateLocus];
+
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig8>();
 
 const PICTURE: Kind =
-    picture_kind("fig8-picture", &["experiments/definition.rs", "experiments/fig8.rs", "experiments/spin_branches.rs", "plot", "table"]);
+    picture_kind("fig8-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig8.rs", "experiments/spin_branches.rs", "plot", "table"]);
 const FINDINGS: Kind = findings_kind(
     "fig8-findings",
-    &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/fig8.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"],
+    &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig8.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"],
 );
 
 struct Fig8;
@@ -151,6 +155,10 @@ impl Definition for Fig8 {
 
     fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
         params.scene.accuracy = accuracy;
+    }
+
+    fn asked(params: &Params) -> Asked {
+        Asked::spin(&params.scene, &OWN, Some(params.scene.start.p_theta))
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {

@@ -11,6 +11,7 @@
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::findings::{largest, unread};
 use super::nodes::Nodes;
+use super::scenes::attitude::{CASES, SPHERE_VIEW, Trajectory, each, plane};
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
@@ -27,14 +28,13 @@ use crate::effects::rotation_group::projected_path::ProjectedPath;
 use crate::effects::rotation_group::projection::{self, Projection};
 use crate::effects::rotation_group::start::{LevelStart, MomentumStart, ReducedStart, allowed, tolerance};
 use crate::effects::rotation_group::start_of_conjugate_time::StartOfConjugateTime;
-use crate::effects::scene::{Effect, EulerCase, EulerCases, Inertia, RotationGroupMetric, Scene};
+use crate::effects::scene::{Effect, EulerCase, EulerCases, Inertia, RotationGroupMetric, Scene, ROTATION_GROUP};
 use crate::plot::axis::Axis;
-use crate::plot::mark::{At, Curve, DirectLabel, Points, RuleLine, Side, SphereCurve, SpherePoints};
-use crate::plot::picture::{Cell, Layout, Legend, Panel, Picture, View, Width};
+use crate::plot::mark::{Curve, Points};
+use crate::plot::picture::{Cell, Layout, Legend, Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::{Table, Tables};
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 
 /// Parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -82,7 +82,7 @@ impl Validate for Params {
         self.scene.start.validate()?;
         let cases = self.scene.start.cases.len();
         Invalid::unless(cases <= CASES.len(), "scene.start.cases", format!("{cases} starts"), "one to four starts")?;
-        self.scene.validate_effects(&[Effect::Attitude, Effect::ConjugateTimes, Effect::Projection])?;
+        self.scene.validate_effects(&OWN, ROTATION_GROUP)?;
         let Reduced { cosine_squared, p_x, p_y, h, t_end, points } = self.projection;
         let positive = |key: &str, value: f64| {
             Invalid::number(value > 0.0 && value.is_finite(), key, value, "a finite number above 0")
@@ -105,12 +105,15 @@ impl Validate for Params {
     }
 }
 
+/// The effects that this experiment itself shows.
+const OWN: [Effect; 3] = [Effect::Attitude, Effect::ConjugateTimes, Effect::Projection];
+
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig9>();
 
 const PICTURE: Kind = picture_kind(
     "fig9-picture",
-    &["experiments/definition.rs", "experiments/findings.rs", "experiments/fig9.rs", "plot", "table"],
+    &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/fig9.rs", "plot", "table"],
 );
 const FINDINGS: Kind = findings_kind(
     "fig9-findings",
@@ -118,6 +121,7 @@ const FINDINGS: Kind = findings_kind(
         "contract/claim.rs",
         "contract/value.rs",
         "experiments/definition.rs",
+        "experiments/scenes", "experiments/spin_branches.rs",
         "experiments/findings.rs",
         "experiments/fig9.rs",
         "table",
@@ -263,7 +267,7 @@ impl Definition for Fig9 {
             let more = more.map(|leaf| {
                 (leaf, if leaf == "start" { "projection".to_owned() } else { format!("projection.{leaf}") })
             });
-            nodes.add(PATH, &[], ProjectedPath { body, start, t_end, points }, &[], &with(&more))?;
+            nodes.add(PATH, &[], ProjectedPath { body, start: Projected::Given(start), t_end, points }, &[], &with(&more))?;
         }
         if asks(Effect::ConjugateTimes) && asks(Effect::Projection) {
             let level = MomentumStart::Level(LevelStart { cosine_squared, p_x, h });
@@ -375,12 +379,6 @@ impl Definition for Fig9 {
     }
 }
 
-/// Both starts and all conjugate points of the article's cases are in front.
-const SPHERE_VIEW: View = View::new(-0.95, -0.15);
-
-/// Roles of the cases, in order, and then again from the first.
-const CASES: [Role; 4] = [Role::SeriesA, Role::SeriesB, Role::SeriesC, Role::SeriesD];
-
 /// Height on paper (mm) and the cells of two rows of panels: equal ones above; below, the wide one first.
 fn cells(above: usize, below: usize) -> (f64, Vec<Cell>) {
     let rows = [above, below].into_iter().filter(|panels| *panels > 0).count().max(1);
@@ -400,18 +398,6 @@ fn cells(above: usize, below: usize) -> (f64, Vec<Cell>) {
     (8.0 + 51.0 * rows as f64, [first, second].concat())
 }
 
-/// The plane of Φ1 and Φ2, without the curves.
-fn plane(trajectories: &[Trajectory<'_>]) -> Panel {
-    let y = Axis::new("*Φ*_2").unit("rad");
-    let inside = trajectories.iter().all(|t| t.angles[1].iter().all(|phi2| (0.0..=PI).contains(phi2)));
-    let y = if inside {
-        y.fixed(0.0, PI).ticks_at([(0.0, "0"), (0.5 * PI, "π/2"), (PI, "π")])
-    } else {
-        y.pi_ticks()
-    };
-    Panel::new(Axis::new("*Φ*_1").unit("rad").pi_ticks(), y).equal()
-}
-
 /// Conjugate times case by case: where no curve is asked for.
 fn times_panel(params: &Params, tables: &Tables) -> Result<Panel, NodeError> {
     let cases = params.scene.start.cases.len();
@@ -426,88 +412,6 @@ fn times_panel(params: &Params, tables: &Tables) -> Result<Panel, NodeError> {
         panel = panel.mark(Points::new(role, points.collect::<Result<Vec<_>, NodeError>>()?).legend(words));
     }
     Ok(panel)
-}
-
-fn each<'a>(
-    trajectories: &'a [Trajectory<'a>],
-    panel: Panel,
-    add: impl Fn(Panel, &'a Trajectory<'a>, usize) -> Panel,
-) -> Panel {
-    trajectories.iter().enumerate().fold(panel, |panel, (i, trajectory)| add(panel, trajectory, i))
-}
-
-/// An attitude table, unpacked.
-struct Trajectory<'t> {
-    time: &'t [f64],
-    conjugate: &'t [i64],
-    angles: [&'t [f64]; 3],
-    axis: [&'t [f64]; 3],
-}
-
-impl<'t> Trajectory<'t> {
-    fn read(table: &'t Table) -> Result<Self, NodeError> {
-        let column = |name: &str| table.f64s(name).map_err(unread);
-        Ok(Self {
-            time: column("t")?,
-            conjugate: table.ints("conjugate").map_err(unread)?,
-            angles: [column("Phi1")?, column("Phi2")?, column("Phi3")?],
-            axis: [column("E3_1")?, column("E3_2")?, column("E3_3")?],
-        })
-    }
-
-    /// The row of the first (1) or second (2) conjugate time, if the curve reaches it.
-    fn row(&self, conjugate: i64) -> Option<usize> {
-        self.conjugate.iter().position(|mark| *mark == conjugate)
-    }
-
-    /// Start and conjugate points of a curve: the role, the row and the words of the legend.
-    fn marks(&self) -> Vec<(Role, usize, &'static str)> {
-        let found = [(Role::ConjugatePoint, 1, "first conjugate point"), (Role::SecondConjugatePoint, 2, "second conjugate point")];
-        let found = found.into_iter().filter_map(|(role, mark, words)| Some((role, self.row(mark)?, words)));
-        std::iter::once((Role::Start, 0, "start")).chain(found).collect()
-    }
-
-    fn against_time(&self) -> Panel {
-        let all = || self.angles.iter().flat_map(|angles| angles.iter().copied());
-        let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max));
-        // Room above the curves for the names of the conjugate times.
-        let (below, above) = (0.05 * (high - low), 0.14 * (high - low));
-        let y = Axis::new("Euler angles").unit("rad").pi_ticks().fixed(low - below, high + above);
-        let mut panel = Panel::new(Axis::new("*t*").unit("time"), y);
-        for (mark, name) in [(1, "*τ*_1"), (2, "*τ*_2")] {
-            if let Some(row) = self.row(mark) {
-                let label = DirectLabel::new(name).at(At::End).side(Side::Right);
-                panel = panel.mark(RuleLine::vertical(Role::Reference, self.time[row]).label(label));
-            }
-        }
-        for (j, role) in [Role::Theta, Role::Phi, Role::Psi].into_iter().enumerate() {
-            let points: Vec<(f64, f64)> = self.time.iter().copied().zip(self.angles[j].iter().copied()).collect();
-            for (role, row, words) in self.marks() {
-                panel = panel.mark(Points::new(role, vec![points[row]]).legend(words));
-            }
-            let label = DirectLabel::new(format!("*Φ*_{}", j + 1)).at(At::Fraction(0.36));
-            panel = panel.mark(Curve::new(role, points).label(label));
-        }
-        panel
-    }
-
-    fn in_plane(panel: Panel, trajectory: &Self, case: usize) -> Panel {
-        let [phi1, phi2, _] = trajectory.angles;
-        let points: Vec<(f64, f64)> = phi1.iter().copied().zip(phi2.iter().copied()).collect();
-        let panel = trajectory.marks().into_iter().fold(panel, |panel, (role, row, words)| {
-            panel.mark(Points::new(role, vec![points[row]]).legend(words))
-        });
-        panel.mark(Curve::new(CASES[case % CASES.len()], points).label(format!("case {}", case + 1)))
-    }
-
-    fn on_sphere(panel: Panel, trajectory: &Self, case: usize) -> Panel {
-        let [x, y, z] = trajectory.axis;
-        let points: Vec<[f64; 3]> = (0..trajectory.time.len()).map(|i| [x[i], y[i], z[i]]).collect();
-        let panel = trajectory.marks().into_iter().fold(panel, |panel, (role, row, words)| {
-            panel.mark(SpherePoints::new(role, vec![points[row]]).legend(words))
-        });
-        panel.mark(SphereCurve::new(CASES[case % CASES.len()], points).label(format!("case {}", case + 1)))
-    }
 }
 
 /// The reduced extremal, its conjugate point, and where it is at the first conjugate times on SO(3).

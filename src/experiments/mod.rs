@@ -5,6 +5,7 @@ pub mod findings;
 pub mod nodes;
 #[cfg(test)]
 pub mod preview;
+pub mod scenes;
 pub mod spin_branches;
 #[cfg(test)]
 pub mod template;
@@ -12,9 +13,9 @@ pub mod template;
 macro_rules! experiments {
     ($($name:ident)*) => {
         $(pub mod $name;)*
-        /// All experiments, in the article's order.
+        /// All experiments, in the article's order; last the one that is none of its: a scene.
         pub const ALL: &[definition::Experiment] = &[$($name::EXPERIMENT),*];
     };
 }
 
-experiments! { fig1 fig2 theorem_3_9 remark_3_25 fig3 fig4 fig5 fig6 fig7 fig8 fig9 cost_of_effects }
+experiments! { fig1 fig2 theorem_3_9 remark_3_25 fig3 fig4 fig5 fig6 fig7 fig8 fig9 cost_of_effects scene }

@@ -23,7 +23,7 @@ impl Nodes {
 
     /// Asks for a node. Its table is found as `name`, with `/axis=value` for each axis, by the picture and the findings.
     ///
-    /// `origins` says which config key each leaf of the parameters came from, where the paths differ.
+    /// `origins` says which config key each leaf of the parameters came from, where the paths differ; an empty key: from none, a default.
     ///
     /// # Errors
     /// Parameters that can't be written as a manifest.
@@ -42,7 +42,7 @@ impl Nodes {
         for (input, table) in inputs {
             node = node.input(*input, &table.0, TABLE);
         }
-        for (leaf, key) in origins {
+        for (leaf, key) in origins.iter().filter(|(_, key)| !key.is_empty()) {
             node = node.origin(*leaf, key.clone());
         }
         self.nodes.push(node);

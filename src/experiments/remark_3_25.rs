@@ -10,12 +10,13 @@
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::findings::{largest_route_difference, quantities, routes_agree, unread};
 use super::nodes::Nodes;
+use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, Phi0Start, Scene, SerretAndoyerMetric};
+use crate::effects::scene::{Effect, Inertia, Phi0Start, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
 use crate::effects::serret_andoyer::by_integration::{self, ConjugatePointsByIntegration};
 use crate::effects::serret_andoyer::cusp_limit::{self, CuspLimit};
 use crate::effects::serret_andoyer::cusps::Cusps;
@@ -51,7 +52,7 @@ impl Validate for Params {
         self.scene.metric.validate()?;
         let half_width = self.scene.metric.half_width();
         self.scene.start.validate(half_width)?;
-        self.scene.validate_effects(&[Effect::ConjugateLocus])?;
+        self.scene.validate_effects(&OWN, SERRET_ANDOYER)?;
         let starts = &self.limit.phi0;
         Invalid::unless((2..=30).contains(&starts.len()), "limit.phi0", format!("{starts:?}"), "2 to 30 numbers")?;
         let mut before = half_width;
@@ -64,12 +65,15 @@ impl Validate for Params {
     }
 }
 
+/// The effects that this experiment itself shows.
+const OWN: [Effect; 1] = [Effect::ConjugateLocus];
+
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Remark>();
 
-const PICTURE: Kind = picture_kind("remark_3_25-picture", &["experiments/definition.rs", "experiments/findings.rs", "experiments/remark_3_25.rs", "plot", "table"]);
+const PICTURE: Kind = picture_kind("remark_3_25-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/remark_3_25.rs", "plot", "table"]);
 const FINDINGS: Kind =
-    findings_kind("remark_3_25-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/remark_3_25.rs", "table"]);
+    findings_kind("remark_3_25-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/remark_3_25.rs", "table"]);
 
 struct Remark;
 
@@ -84,6 +88,10 @@ impl Definition for Remark {
 
     fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
         params.scene.accuracy = accuracy;
+    }
+
+    fn asked(params: &Params) -> Asked {
+        Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0), None)
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
@@ -291,7 +299,7 @@ mod tests {
             ("A = 1.5", "A = 2.5", "scene.metric.serret-andoyer.B"),
             ("to = 1.2", "to = 1.6", "scene.start.phi0"),
             ("[0.4, 0.2, 0.1", "[0.4, 0.39, 0.1", "limit.phi0[1]"),
-            ("\"conjugate-locus\"]", "\"geodesics\"]", "scene.effects[0]"),
+            ("\"conjugate-locus\"]", "\"attitude\"]", "scene.effects[0]"),
         ] {
             let refused = params(from, to).unwrap_err();
             assert!(refused.contains(key), "{refused}");

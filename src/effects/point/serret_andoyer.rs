@@ -1,9 +1,10 @@
 //! `point serret-andoyer A= B= C=` and a start: momenta at `y0`, or the Darboux chart at arc length, in closed form.
 
-use super::{Answer, Given, PointError, Reader};
+use super::{Answer, Given, PointError, Reader, in_lanes};
 use crate::contract::work::Work;
+use crate::geometry::serret_andoyer::lanes::{NoPoint, first_conjugate_points};
 use crate::geometry::serret_andoyer::{
-    Branch, Clairaut, Extremal, Metric, NoConjugatePoint, Start, first_conjugate_point,
+    Branch, Clairaut, ConjugatePoint, Extremal, Metric, NoConjugatePoint, Start, first_conjugate_point,
 };
 
 const METRIC: &str = "the metric is A=… B=… C=… with 0 < A < B < C";
@@ -11,22 +12,36 @@ const ACCEPTED: &str =
     "a start is y0=… p_x=… p_y=…, or phi0=… with p_theta=… or delta=… and branch=ascending|descending";
 
 pub(super) fn answer(reader: &Reader<'_>) -> Result<Answer, PointError> {
-    let refused = |error: &dyn std::fmt::Display| PointError::Refused(error.to_string());
+    let (metric, start) = read(reader)?;
+    let point = Extremal::new(&metric, start).map_err(NoPoint::from);
+    told(point.and_then(|extremal| first_conjugate_point(&extremal).map_err(NoPoint::from)))
+}
+
+/// Many rows at once: for each the answer that it has alone.
+pub(super) fn answers(readers: &[Reader<'_>]) -> Vec<Result<Answer, PointError>> {
+    in_lanes(readers, read, first_conjugate_points, told)
+}
+
+fn read(reader: &Reader<'_>) -> Result<(Metric, Start), PointError> {
     let [a, b, c] = [reader.number("A", METRIC)?, reader.number("B", METRIC)?, reader.number("C", METRIC)?];
-    let metric = Metric::new(a, b, c).map_err(|error| refused(&error))?;
-    let start = start(reader)?;
-    let extremal = Extremal::new(&metric, start).map_err(|error| refused(&error))?;
-    let route = "closed form: the pole-free equation of the conjugate time (from eq. 15)";
-    match first_conjugate_point(&extremal) {
+    let metric = Metric::new(a, b, c).map_err(|error| PointError::Refused(error.to_string()))?;
+    Ok((metric, start(reader)?))
+}
+
+fn told(point: Result<ConjugatePoint, NoPoint>) -> Result<Answer, PointError> {
+    match point {
         Ok(point) => Ok(Answer {
             numbers: [point.t1, point.x, point.y, point.theta, point.phi, point.lower_bound].map(Some).to_vec(),
             reason: None,
             error: Some(point.error),
-            route: route.into(),
+            route: "closed form: the pole-free equation of the conjugate time (from eq. 15)".into(),
             work: Work { elliptic_calls: point.elliptic_calls as u64, roots_solved: 1, rows: 1, ..Work::default() },
         }),
-        Err(error @ NoConjugatePoint::NotSolved { .. }) => Err(PointError::Failed(error.to_string())),
-        Err(reason) => Ok(Answer {
+        Err(NoPoint::Start(error)) => Err(PointError::Refused(error.to_string())),
+        Err(NoPoint::Extremal(error @ NoConjugatePoint::NotSolved { .. })) => {
+            Err(PointError::Failed(error.to_string()))
+        }
+        Err(NoPoint::Extremal(reason)) => Ok(Answer {
             numbers: vec![None; 6],
             reason: Some(reason.to_string()),
             error: None,

@@ -57,7 +57,7 @@ pub(super) fn into_half_turn(y: f64) -> f64 {
 
 impl Projected {
     /// `[x, y, p_x, p_y]` at the start. Transformed in double-double and rounded once.
-    fn reduced(&self) -> Result<[f64; 4], NodeError> {
+    pub(super) fn reduced(&self) -> Result<[f64; 4], NodeError> {
         match self {
             Self::Given(start) => Ok([0.0, start.y0(), start.p_x, start.p_y]),
             Self::From(start) => {

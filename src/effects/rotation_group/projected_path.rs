@@ -1,6 +1,7 @@
-//! A reduced extremal (9) that is given by its momenta, in closed form at equal steps of time: for drawing.
+//! A reduced extremal (9), given by its momenta or projected from SO(3), in closed form at equal steps of time: for drawing.
 
-use super::start::{Body, ReducedStart};
+use super::projected_conjugate_point::Projected;
+use super::start::Body;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::effects::product::{failed, product};
@@ -16,8 +17,8 @@ const ELLIPTIC_CALLS: u64 = 3;
 pub struct ProjectedPath {
     /// The body, `A < B < C`.
     pub body: Body,
-    /// Where it starts, x = 0.
-    pub start: ReducedStart,
+    /// Where it starts.
+    pub start: Projected,
     /// Where it ends (time).
     pub t_end: f64,
     /// Points, both ends included.
@@ -27,9 +28,10 @@ pub struct ProjectedPath {
 /// The kind.
 pub const KIND: Kind = Kind {
     name: "rotation-group-projected-path",
-    summary: "a Serret-Andoyer extremal given by its momenta, in closed form",
+    summary: "a Serret-Andoyer extremal, given or projected from SO(3), in closed form",
     code: &[
         "effects/rotation_group/projected_path.rs",
+        "effects/rotation_group/projected_conjugate_point.rs",
         "effects/rotation_group/start.rs",
         "effects/product.rs",
         "geometry/rotation_group",
@@ -46,8 +48,7 @@ impl Compute for ProjectedPath {
     }
 
     fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let ReducedStart { p_x, p_y, .. } = self.start;
-        let y0 = self.start.y0();
+        let [x0, y0, p_x, p_y] = self.start.reduced()?;
         let extremal = Extremal::new(&self.body.reduced()?, Start::Momenta { y0, p_x, p_y })
             .map_err(failed(&self.start.to_string()))?;
         let path = extremal.path();
@@ -55,9 +56,13 @@ impl Compute for ProjectedPath {
         let times: Vec<f64> = (0..self.points).map(|i| self.t_end * (i as f64 / last)).collect();
         let positions: Vec<_> = times.iter().map(|t| path.position(*t)).collect();
         let rows = times.len() as u64;
+        let meaning = match self.start {
+            Projected::Given(_) => "x, zero at the start",
+            Projected::From(_) => "x",
+        };
         let table = Table::builder("projected-path", "a Serret-Andoyer extremal")
             .column("t", "time", "time", times)
-            .column("x", "rad", "x, zero at the start", positions.iter().map(|p| p.x).collect::<Vec<_>>())
+            .column("x", "rad", meaning, positions.iter().map(|p| x0 + p.x).collect::<Vec<_>>())
             .column("y", "rad", "y, on the universal cover", positions.iter().map(|p| p.y).collect::<Vec<_>>())
             .column("p_y", "momentum", "its momentum", positions.iter().map(|p| p.p_y).collect::<Vec<_>>())
             .build()

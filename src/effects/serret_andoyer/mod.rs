@@ -13,6 +13,7 @@ pub mod cut_locus;
 pub mod equator_limits;
 pub mod geodesics;
 pub mod named_start;
+pub mod period;
 pub mod potential;
 pub mod wave_front;
 pub mod wave_front_crossings;

@@ -3,8 +3,7 @@
 //! Start on the equator, `θ = 0`, `φ = π/2`, `p_φ = −2`, `H = 1`; `p_θ ≥ 0` from 0 to a large value (module [`super::branch`]). Angles in
 //! radians, times in the unit that `H = 1` fixes. The phase of the closed form is monotone, so no earlier conjugate time is missed.
 
-use super::branch::sample;
-use super::momenta::Momenta;
+use super::starts::Starts;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::effects::product::{failed, product};
 use crate::table::Table;
@@ -19,6 +18,7 @@ pub const KIND: Kind = Kind {
         "effects/spin/branch.rs",
         "effects/spin/chart.rs",
         "effects/spin/momenta.rs",
+        "effects/spin/starts.rs",
         "effects/product.rs",
         "geometry/spin",
         "numerics",
@@ -28,12 +28,12 @@ pub const KIND: Kind = Kind {
 };
 
 /// One branch of the locus.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ConjugateLocus {
     /// The ratio of the couplings.
     pub k: f64,
-    /// How the branch is sampled.
-    pub p_theta: Momenta,
+    /// Which momenta.
+    pub p_theta: Starts,
 }
 
 impl Compute for ConjugateLocus {
@@ -42,7 +42,7 @@ impl Compute for ConjugateLocus {
     }
 
     fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let (branch, work) = sample(self.k, &self.p_theta)?;
+        let (branch, work) = self.p_theta.branch(self.k)?;
         let column = |of: fn(&super::branch::BranchPoint) -> f64| branch.iter().map(of).collect::<Vec<f64>>();
         let crossings: Vec<i64> = branch.iter().map(|row| i64::from(row.point.crossings)).collect();
         let table = Table::builder("spin-conjugate-locus", "first conjugate points for p_φ(0) = −2, p_θ(0) ≥ 0")

@@ -7,10 +7,10 @@
 //! Each is integrated once and read off the steps' own polynomials, as densely as the chart (θ, φ) needs; in double-double where
 //! rounding in f64 would show ([`super::branch::rounding`]). Every point is compared with the closed form.
 
-use super::branch::{BranchPoint, conjugate_point, rounding, sample, slopes};
+use super::branch::{BranchPoint, conjugate_point, rounding, slopes};
 use super::by_integration::DOUBLE_DOUBLE_TOLERANCE;
 use super::chart::{Place, coarse, continuous, distance, extend};
-use super::momenta::Momenta;
+use super::starts::Starts;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::effects::counted::integrated;
@@ -36,6 +36,7 @@ pub const KIND: Kind = Kind {
         "effects/spin/branch.rs",
         "effects/spin/chart.rs",
         "effects/spin/momenta.rs",
+        "effects/spin/starts.rs",
         "effects/counted.rs",
         "effects/product.rs",
         "geometry/spin",
@@ -51,12 +52,12 @@ const SHOWS: f64 = 1e-11;
 const INTERVAL: f64 = 0.5;
 
 /// Extremals up to their first conjugate points.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Geodesics {
     /// The ratio of the couplings.
     pub k: f64,
-    /// How the branch is sampled along which their ends are spread.
-    pub p_theta: Momenta,
+    /// The branch along which their ends are spread; of listed momenta, all where there are no more than `count`.
+    pub p_theta: Starts,
     /// How many.
     pub count: u32,
     /// Largest distance of neighbouring points, radians.
@@ -80,6 +81,24 @@ fn spread(branch: &[BranchPoint], count: u32) -> Vec<f64> {
         if p > 0.0 { libm::pow(p, 1.0 - share) * libm::pow(q, share) } else { q }
     };
     (0..count).map(|i| if i == 0 { 0.0 } else { at(i) }).collect()
+}
+
+/// At most `count` of the momenta of a listed branch: those whose conjugate points stand nearest to equally far apart along it.
+fn chosen(branch: &[BranchPoint], count: u32) -> Vec<f64> {
+    let all = branch.iter().map(|row| row.p_theta);
+    if branch.len() <= count as usize {
+        return all.collect();
+    }
+    let mut along = vec![0.0];
+    for pair in branch.windows(2) {
+        along.push(along[along.len() - 1] + distance(pair[0].point.r, pair[1].point.r));
+    }
+    let length = along[along.len() - 1];
+    let wanted = |i: u32| length * f64::from(i) / f64::from(count - 1).max(1.0);
+    let mut chosen: Vec<f64> =
+        (0..count).map(|i| branch[along.partition_point(|s| *s < wanted(i)).min(branch.len() - 1)].p_theta).collect();
+    chosen.dedup();
+    chosen
 }
 
 struct Trajectory {
@@ -155,11 +174,14 @@ impl Compute for Geodesics {
     }
 
     fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let (branch, mut work) = sample(self.k, &self.p_theta)?;
+        let (branch, mut work) = self.p_theta.branch(self.k)?;
         let (p_theta, t1): (Vec<f64>, Vec<f64>) = branch.iter().map(|row| (row.p_theta, row.point.t1)).unzip();
         let slopes = slopes(&p_theta, &t1);
         let slope = |p: f64| slopes[p_theta.partition_point(|other| *other < p).min(slopes.len() - 1)];
-        let momenta = spread(&branch, self.count);
+        let momenta = match &self.p_theta {
+            Starts::Branch(_) => spread(&branch, self.count),
+            Starts::Listed(_) => chosen(&branch, self.count),
+        };
         let trajectories =
             momenta.par_iter().map(|p| self.one(*p, slope(*p))).collect::<Result<Vec<Trajectory>, NodeError>>()?;
         work += trajectories.iter().map(|trajectory| trajectory.work).sum();
@@ -185,13 +207,14 @@ impl Compute for Geodesics {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effects::spin::momenta::Momenta;
 
     /// Oracle: the closed form, at every sample; and the ends are conjugate points spread as promised.
     #[test]
     fn integration_and_closed_form_agree() {
         let p_theta = Momenta { from: 1e-9, to: 1e4, step: 0.2 };
         for k in [0.1, 0.2, 0.5, 0.8, 1.0, 1.2, 1.4] {
-            let geodesics = Geodesics { k, p_theta, count: 15, step: 0.1, tolerance: f64::EPSILON };
+            let geodesics = Geodesics { k, p_theta: p_theta.into(), count: 15, step: 0.1, tolerance: f64::EPSILON };
             let product = geodesics.run(&Inputs::default()).unwrap();
             let table = Table::from_parquet(&product.artifacts[0].bytes).unwrap();
             let largest = table.f64s("difference").unwrap().iter().copied().fold(0.0, f64::max);

@@ -18,10 +18,12 @@
 //! difference of `ξ`s, so nothing is lost near the turning points. Not known here: the path (`path.rs`), conjugate points.
 
 use super::darboux::FromEquator;
+use super::equation::{Chart, Form, Oscillating};
 use super::metric::Metric;
 pub use super::start::{Branch, Clairaut, Start, StartError};
 use crate::numerics::elliptic::complete::complete_k;
 use crate::numerics::elliptic::incomplete::incomplete_f_sc;
+use crate::numerics::elliptic::jacobi::Jacobi;
 use crate::numerics::real::Real;
 
 /// The kind of motion in `y` (and φ).
@@ -83,25 +85,66 @@ pub struct Extremal<S: Real = f64> {
     pub(super) cosine: S,
 }
 
-impl<S: Real> Extremal<S> {
-    /// The extremal of a metric from a start.
-    ///
-    /// Guarantee: parameters to a few ε of the inputs as given, except `1 − ξ1` from momenta or `p_θ`, whose cancellation near
-    /// the separatrix is the problem's own (give `delta` there). Errors: [`StartError`]. `p_θ` above `√μ(φ0)` by no more than the
-    /// rounding of both counts as equal.
-    pub fn new(metric: &Metric<S>, start: Start<S>) -> Result<Self, StartError> {
-        match start {
-            Start::Momenta { y0, p_x, p_y } => Self::from_momenta(metric, y0, p_x, p_y),
-            Start::Darboux { phi0, clairaut, branch } => Self::from_darboux(metric, phi0, clairaut, branch),
+/// Energies and direction of a start: what is known before the kind of motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Origin<S: Real> {
+    pub(super) energies: Energies<S>,
+    pub(super) p_x: S,
+    pub(super) energy: S,
+    pub(super) angle: FromEquator<S>,
+    pub(super) direction: S,
+}
+
+/// The functions of the coordinate at the last start, for starts that share it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Memory<S: Real> {
+    angle: Option<(S, FromEquator<S>)>,
+    jacobi: Option<(Metric<S>, S, Jacobi<S>)>,
+}
+
+impl<S: Real> Default for Memory<S> {
+    fn default() -> Self {
+        Self { angle: None, jacobi: None }
+    }
+}
+
+impl<S: Real> Memory<S> {
+    fn angle(&mut self, y0: S) -> FromEquator<S> {
+        match self.angle {
+            // Zeros of both signs are equal and have different angles: never remembered.
+            Some((y, angle)) if y == y0 && y != S::ZERO => angle,
+            _ => self.angle.insert((y0, FromEquator::of_y(y0))).1,
         }
     }
 
-    fn from_momenta(metric: &Metric<S>, y0: S, p_x: S, p_y: S) -> Result<Self, StartError> {
+    fn jacobi(&mut self, metric: &Metric<S>, phi0: S) -> Jacobi<S> {
+        match self.jacobi {
+            Some((at, phi, jacobi)) if phi == phi0 && phi != S::ZERO && at == *metric => jacobi,
+            _ => self.jacobi.insert((*metric, phi0, metric.jacobi_of_phi(phi0))).2,
+        }
+    }
+}
+
+impl<S: Real> Origin<S> {
+    /// Whether `y` oscillates, or rests on the equator: `D > 0`.
+    pub(super) fn oscillates(&self) -> bool {
+        self.energies.to_separatrix > S::ZERO
+    }
+
+    /// Errors: those of [`Extremal::new`].
+    pub(super) fn new(metric: &Metric<S>, start: Start<S>, memory: &mut Memory<S>) -> Result<Self, StartError> {
+        match start {
+            Start::Momenta { y0, p_x, p_y } => Self::from_momenta(metric, [y0, p_x, p_y], memory),
+            Start::Darboux { phi0, clairaut, branch } => Self::from_darboux(metric, phi0, clairaut, branch, memory),
+        }
+    }
+
+    fn from_momenta(metric: &Metric<S>, [y0, p_x, p_y]: [S; 3], memory: &mut Memory<S>) -> Result<Self, StartError> {
         check_finite([("y0", y0), ("p_x", p_x), ("p_y", p_y)])?;
         if p_x == S::ZERO && p_y == S::ZERO {
             return Err(StartError::NoMomentum);
         }
-        let angle = FromEquator::of_y(y0);
+        let angle = memory.angle(y0);
         let ba = metric.b() - metric.a();
         let c_minus_z = metric.c_minus_z_of_cosine(angle.cosine);
         let square = ba * p_x * p_x;
@@ -127,10 +170,16 @@ impl<S: Real> Extremal<S> {
             return Err(StartError::OutOfScale { p_x: p_x.to_f64(), p_y: p_y.to_f64() });
         }
         let direction = if p_y < S::ZERO { -S::ONE } else { S::ONE };
-        Ok(Self::assemble(metric, energies, p_x, energy, angle, direction))
+        Ok(Self { energies, p_x, energy, angle, direction })
     }
 
-    fn from_darboux(metric: &Metric<S>, phi0: S, clairaut: Clairaut<S>, branch: Branch) -> Result<Self, StartError> {
+    fn from_darboux(
+        metric: &Metric<S>,
+        phi0: S,
+        clairaut: Clairaut<S>,
+        branch: Branch,
+        memory: &mut Memory<S>,
+    ) -> Result<Self, StartError> {
         let (a, b) = (metric.a(), metric.b());
         let (name, value) = match clairaut {
             Clairaut::PTheta(p) => ("p_theta", p),
@@ -141,7 +190,7 @@ impl<S: Real> Extremal<S> {
             let (phi0, half_width) = (phi0.to_f64(), metric.half_width().to_f64());
             return Err(StartError::OutsideStrip { phi0, half_width });
         }
-        let jacobi = metric.jacobi_of_phi(phi0);
+        let jacobi = memory.jacobi(metric, phi0);
         // A φ0 one rounding inside the edge may come out beyond it: take it as at the edge.
         let cosine = jacobi.cn.max(S::ZERO);
         let angle = FromEquator { half_turns: S::ZERO, sine: jacobi.sn, cosine };
@@ -174,43 +223,52 @@ impl<S: Real> Extremal<S> {
         let to_equator = energies.to_equator.max(in_y);
         let energies = Energies { in_y, in_y_error, to_equator, ..energies };
         let direction = if branch == Branch::Descending { -S::ONE } else { S::ONE };
-        Ok(Self::assemble(metric, energies, p_theta, S::from_f64(0.5), angle, direction))
+        Ok(Self { energies, p_x: p_theta, energy: S::from_f64(0.5), angle, direction })
+    }
+}
+
+impl<S: Real> Extremal<S> {
+    /// The extremal of a metric from a start.
+    ///
+    /// Guarantee: parameters to a few ε of the inputs as given, except `1 − ξ1` from momenta or `p_θ`, whose cancellation near
+    /// the separatrix is the problem's own (give `delta` there). Errors: [`StartError`]. `p_θ` above `√μ(φ0)` by no more than the
+    /// rounding of both counts as equal.
+    pub fn new(metric: &Metric<S>, start: Start<S>) -> Result<Self, StartError> {
+        Ok(Self::assemble(metric, &Origin::new(metric, start, &mut Memory::default())?))
     }
 
     /// Class, parameters and phase from the energies.
-    fn assemble(
-        metric: &Metric<S>,
-        energies: Energies<S>,
-        p_x: S,
-        energy: S,
-        angle: FromEquator<S>,
-        direction: S,
-    ) -> Self {
+    pub(super) fn assemble(metric: &Metric<S>, origin: &Origin<S>) -> Self {
+        let Origin { energies, p_x, energy, angle, direction } = *origin;
         let (ba, ca, cb) = (metric.b() - metric.a(), metric.c() - metric.a(), metric.c() - metric.b());
         let Energies { to_separatrix, to_equator, to_minor_axis, in_y, .. } = energies;
         let zero = S::ZERO;
-        let oscillating = to_separatrix > zero;
-        let (speed_squared, mc, m, gain_squared, nu) = if oscillating {
-            let square = ba * to_minor_axis;
-            (
-                square,
-                ca * to_separatrix / square,
-                cb * to_equator / square,
-                ca * to_equator / square,
-                to_equator / to_minor_axis,
-            )
-        } else if to_minor_axis >= zero {
-            let square = cb * to_equator;
-            (square, ca * -to_separatrix / square, ba * to_minor_axis / square, ca / cb, ba / cb)
+        let oscillating = origin.oscillates();
+        let form = if oscillating {
+            let metric = [metric.a(), metric.b(), metric.c()];
+            Form::new(metric, [to_separatrix, to_equator, to_minor_axis, in_y], angle.sine)
         } else {
-            let square = ca * -to_separatrix;
-            (
-                square,
-                cb * to_equator / square,
-                ba * -to_minor_axis / square,
-                to_equator / -to_separatrix,
-                ba * p_x * p_x / -to_separatrix,
-            )
+            let (square, mc, m, gain_squared, nu) = if to_minor_axis >= zero {
+                let square = cb * to_equator;
+                (square, ca * -to_separatrix / square, ba * to_minor_axis / square, ca / cb, ba / cb)
+            } else {
+                let square = ca * -to_separatrix;
+                (
+                    square,
+                    cb * to_equator / square,
+                    ba * -to_minor_axis / square,
+                    to_equator / -to_separatrix,
+                    ba * p_x * p_x / -to_separatrix,
+                )
+            };
+            let gain = gain_squared.sqrt();
+            // Tangent of the amplitude at the start as a quotient.
+            let (numerator, denominator) = (angle.sine, gain * angle.cosine);
+            let length = (numerator * numerator + denominator * denominator).sqrt();
+            // At rest every phase is right: take the turning point.
+            let (sine, cosine) =
+                if length > zero { (numerator / length, denominator / length) } else { (S::ONE, S::ZERO) };
+            Form { m, mc, speed: square.sqrt(), gain, nu, sine, cosine }
         };
         let class = match (oscillating, to_equator > zero) {
             (true, false) => ExtremalClass::Equator,
@@ -220,16 +278,7 @@ impl<S: Real> Extremal<S> {
             (false, _) if in_y > zero => ExtremalClass::Separatrix,
             (false, _) => ExtremalClass::MiddleAxis,
         };
-        let gain = gain_squared.sqrt();
-        // Tangent of the amplitude at the start as a quotient.
-        let (numerator, denominator) = if oscillating {
-            (angle.sine * (ba * to_minor_axis / ca).sqrt(), in_y.sqrt())
-        } else {
-            (angle.sine, gain * angle.cosine)
-        };
-        let length = (numerator * numerator + denominator * denominator).sqrt();
-        // On the equator, and at rest on the middle axis, every phase is right: take the turning point.
-        let (sine, cosine) = if length > zero { (numerator / length, denominator / length) } else { (S::ONE, S::ZERO) };
+        let Form { m, mc, speed, gain, nu, sine, cosine } = form;
         Self {
             metric: *metric,
             energies,
@@ -240,12 +289,44 @@ impl<S: Real> Extremal<S> {
             direction,
             m,
             mc,
-            speed: speed_squared.sqrt(),
+            speed,
             gain,
             nu,
             complete_k: complete_k(mc),
             sine,
             cosine,
+        }
+    }
+
+    /// What the equation of the conjugate point needs of an extremal that oscillates.
+    pub(super) fn oscillating(&self) -> Oscillating<S> {
+        let (metric, e) = (&self.metric, &self.energies);
+        let Self { m, mc, speed, gain, nu, sine, cosine, .. } = *self;
+        Oscillating {
+            a: metric.a(),
+            b: metric.b(),
+            c: metric.c(),
+            to_separatrix: e.to_separatrix,
+            to_equator: e.to_equator,
+            to_minor_axis: e.to_minor_axis,
+            separatrix_error: e.separatrix_error,
+            minor_axis_error: e.minor_axis_error,
+            in_y_error: e.in_y_error,
+            direction: self.direction,
+            form: Form { m, mc, speed, gain, nu, sine, cosine },
+        }
+    }
+
+    /// What its place needs besides.
+    pub(super) fn chart(&self) -> Chart<S> {
+        let metric = &self.metric;
+        Chart {
+            p_x: self.p_x,
+            half_turns: self.angle.half_turns,
+            alpha: metric.alpha(),
+            parameter: metric.parameter(),
+            complementary_parameter: metric.complementary_parameter(),
+            complete_k: metric.complete_k(),
         }
     }
 

@@ -87,11 +87,11 @@ impl<S: Real> SerretAndoyerFlow<S> {
 }
 
 impl<S: Algebra> SerretAndoyerFlow<S> {
-    /// A scale for y': `p_x (C − A)`, which it does not exceed while `|p_y| ≤ p_x`.
+    /// A scale for y': `|p_x| (C − A)`, which it does not exceed while `|p_y| ≤ |p_x|`.
     #[inline(always)]
     fn rate(&self) -> S {
         let [a, _, c] = self.inverse_inertia;
-        self.p_x * (c - a)
+        self.p_x.size() * (c - a)
     }
 }
 

@@ -49,7 +49,8 @@ impl LaneWork for Integrate<'_> {
     fn run<P: Pack<Scalar = f64>>(self) -> Vec<Outcome> {
         let Self { starts, tolerance, t_max } = self;
         let load = |start: &FlowStart, lane: usize, system: &mut System<P>, state: &mut State<P>| {
-            let (flow, base) = posed(start.inverse_inertia, start.y0, start.p_x, start.p_y).map_err(Err)?;
+            let (flow, base) =
+                posed(start.inverse_inertia, start.y0, start.p_x, start.p_y).map_err(|error| Box::new(Err(error)))?;
             let (column, parameter) = flow.column(&base);
             let of = &mut system.flow;
             set_lane(lane, &mut of.inverse_inertia, &flow.inverse_inertia);

@@ -6,9 +6,11 @@
 pub mod conjugate;
 pub mod curvature;
 pub mod darboux;
+mod equation;
 pub mod extremal;
 pub mod flow;
 pub mod flow_lanes;
+pub mod lanes;
 pub mod metric;
 pub mod path;
 pub mod period;

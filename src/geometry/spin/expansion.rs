@@ -16,6 +16,8 @@ pub const DEGREE: usize = 8;
 const TERMS: usize = DEGREE + 1;
 /// Fraction of the estimated radius of convergence within which a root of the series is believed.
 const TRUSTED_FRACTION: f64 = 0.5;
+/// A coefficient that exceeds the one expected for the radius by less than this moves the radius by a few percent.
+const WITHIN: f64 = 1.5;
 /// Newton and bisection steps on the series; a triple root takes about 80 (each gains a third), others five.
 const MOST_STEPS: usize = 100;
 
@@ -34,6 +36,8 @@ pub struct Expansion<S> {
     pub beta_rate: [S; TERMS],
     /// Estimated radius of convergence.
     pub radius: S,
+    /// Size of the coefficient of degree [`DEGREE`] that goes with the radius: at least its own size.
+    last: S,
 }
 
 /// `Σ a[i] b[n−i]`.
@@ -59,6 +63,35 @@ pub fn value<S: Real>(series: &[S; TERMS], y: S) -> S {
         sum = sum * y + series[i];
     }
     sum
+}
+
+/// The radius of convergence ρ for which no coefficient given (of degrees 8, 7 and 6, the highest first) is above `ρ^−n`,
+/// and `ρ^−8`. One coefficient alone says too little: some are small by chance, and a step that is believed to
+/// reach 30 times as far as it does costs two digits.
+fn radius_and_last<S: Real>(sizes: [S; 3]) -> (S, S) {
+    let eighth_root = |x: S| x.sqrt().sqrt().sqrt();
+    let largest = sizes[0].max(sizes[1]).max(sizes[2]);
+    if largest == S::ZERO {
+        return (S::ONE, S::ZERO);
+    }
+    // An upper bound to start with: the highest coefficient, unless it is so small that it certainly says nothing.
+    let mut radius = eighth_root(S::ONE / sizes[0].max(largest * S::EPSILON));
+    for (skipped, &size) in sizes.iter().enumerate().skip(1) {
+        // f = size·ρⁿ above one: ρ is too large by f^(1/n). The eighth root, three times, takes f to f^(1/64) or less.
+        for _ in 0..3 {
+            let mut excess = size;
+            for _ in 0..DEGREE - skipped {
+                excess *= radius;
+            }
+            if excess <= S::from_f64(WITHIN) {
+                break;
+            }
+            radius /= eighth_root(excess);
+        }
+    }
+    let square = radius * radius;
+    let fourth = square * square;
+    (radius, S::ONE / (fourth * fourth))
 }
 
 /// The derivative of a series.
@@ -99,7 +132,15 @@ impl<S: Real> Expansion<S> {
         cx[0] = state.b_q / length;
         let inverse = one / p[0];
         let weight = half_g / (k * k);
-        let mut result = Self { target: zero, chi: zero, sin_beta: zero, cos_beta: zero, beta_rate: zero, radius: one };
+        let mut result = Self {
+            target: zero,
+            chi: zero,
+            sin_beta: zero,
+            cos_beta: zero,
+            beta_rate: zero,
+            radius: one,
+            last: S::ZERO,
+        };
         result.chi[0] = state.chi_rest;
         for n in 0..DEGREE {
             let next = one / S::from_f64((n + 1) as f64);
@@ -118,11 +159,10 @@ impl<S: Real> Expansion<S> {
             cx[n + 1] = -(product(&sx, &chi_rate, n) * next);
         }
         // Θ and χ have the same singularities; the scale of both is λ's rate.
-        let last = result.target[DEGREE].abs() + result.chi[DEGREE].abs();
         let scale = half_g * inverse + weight * p[0];
-        if last > S::ZERO {
-            result.radius = (scale / last).sqrt().sqrt().sqrt();
-        }
+        let size = |n: usize| (result.target[n].abs() + result.chi[n].abs()) / scale;
+        (result.radius, result.last) = radius_and_last([size(DEGREE), size(DEGREE - 1), size(DEGREE - 2)]);
+        result.last *= scale;
         match quantity {
             Quantity::Phase => result.target[0] = state.phase_beyond(turns),
             Quantity::Lambda => {
@@ -195,7 +235,6 @@ impl<S: Real> Expansion<S> {
         for _ in 0..DEGREE {
             power *= y.abs();
         }
-        let last = (self.target[DEGREE].abs() + self.chi[DEGREE].abs()) * power;
-        last * ratio / (S::ONE - ratio)
+        self.last * power * ratio / (S::ONE - ratio)
     }
 }

@@ -35,7 +35,7 @@ impl LaneWork for Integrate<'_> {
     fn run<P: Pack<Scalar = f64>>(self) -> Vec<Outcome> {
         let Self { starts, tolerance, t_max } = self;
         let load = |&(k, p_theta): &(f64, f64), lane: usize, flow: &mut Lifted<P>, state: &mut LiftedState<P>| {
-            let (one, base) = posed(k, p_theta).map_err(Err)?;
+            let (one, base) = posed(k, p_theta).map_err(|error| Box::new(Err(error)))?;
             set_lane(lane, std::slice::from_mut(&mut flow.flow.half_inverse_k_squared), &[one.half_inverse_k_squared]);
             set_lane(lane, &mut state.base, &base);
             set_lane(lane, &mut state.columns.0[0], &[0.0, -1.0, 0.0]);

@@ -180,7 +180,7 @@ impl LaneWork for Integrate<'_> {
     fn run<P: Pack<Scalar = f64>>(self) -> Vec<Outcome> {
         let Self { starts, tolerance, t_max } = self;
         let load = |&(k, p_theta): &(f64, f64), lane: usize, system: &mut System<P>, state: &mut State<P>| {
-            let (flow, start) = posed(k, p_theta).map_err(Err)?;
+            let (flow, start) = posed(k, p_theta).map_err(|error| Box::new(Err(error)))?;
             let of = &mut system.flow;
             for (member, value) in [
                 (&mut of.stiffness, flow.stiffness),

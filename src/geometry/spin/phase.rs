@@ -22,6 +22,13 @@ use super::landen::Amplitude;
 use crate::numerics::elliptic::carlson::{r_d, r_f, r_j};
 use crate::numerics::real::Real;
 
+/// Rounding of the excess of a half turn beyond the two ε of `lambda_rest`, in ε of it: together at most 7.1 in 40 000
+/// random extremals with k from 0.1 to 10.
+const EXCESS_ROUNDING: f64 = 6.0;
+/// Rounding of a term of A and B_q, in ε of it: that of `∫(nd² − 1)` was below 3.2 in 99 % of these, and
+/// the products around it round too. With both, 200 000 random starts have errors of `t1` up to 0.84 of the bound.
+const TERM_ROUNDING: f64 = 4.0;
+
 /// An extremal at one instant.
 #[derive(Debug, Clone, Copy)]
 pub struct State<S> {
@@ -45,6 +52,11 @@ pub struct State<S> {
     pub chi_turns: S,
     /// `χ − chi_turns·π`; `χ = arg(B_q + iA)`, continuous from zero.
     pub chi_rest: S,
+    /// A bound of the rounding error that cancellation in A and B_q brings into `chi_rest`: near `δβ = 0`, where A is the
+    /// difference of two terms, it is far larger than ε of χ.
+    pub chi_rounding: S,
+    /// A bound of the rounding error of the whole half turns in `lambda_rest`, each of which adds that of the excess.
+    pub turns_rounding: S,
     /// `δβ = ∂β/∂p_θ`.
     pub delta_beta: S,
     /// `δβ' = ∂β'/∂p_θ`.
@@ -69,10 +81,12 @@ impl<S: Real> State<S> {
         (self.half_turns - turns) * S::PI + self.lambda_rest
     }
 
-    /// A bound of the rounding error of `phase_beyond(turns)`: twice ε of each of its terms.
+    /// A bound of the rounding error of `phase_beyond(turns)`: twice ε of each of its terms, and what these hide.
     pub fn phase_rounding(&self, turns: S) -> S {
         let whole = (self.half_turns - self.chi_turns - turns).abs() * S::PI;
         S::from_f64(2.0) * S::EPSILON * (whole + self.lambda_rest.abs() + self.chi_rest.abs())
+            + self.chi_rounding
+            + self.turns_rounding
     }
 
     /// `dΘ/dt = (G/2k²) P sin²χ`.
@@ -85,6 +99,7 @@ impl<S: Real> State<S> {
     /// The same for `lambda_beyond(turns)`.
     pub fn lambda_rounding(&self, turns: S) -> S {
         S::from_f64(2.0) * S::EPSILON * ((self.half_turns - turns).abs() * S::PI + self.lambda_rest.abs())
+            + self.turns_rounding
     }
 
     /// The momentum `h = (2k sin β, −2k β', 2 cos β)`.
@@ -124,6 +139,7 @@ impl<S: Real> Extremal<S> {
         let (k, g) = (self.k, self.casimir);
         let u = self.rate * t;
         let (lambda, sin_beta, cos_beta, beta_rate, a, b_q, delta_beta, delta_beta_rate);
+        let mut b_terms = one;
         match self.regime {
             Regime::Meridian => {
                 // A : B_q = tanh(lt)/l : 1
@@ -143,6 +159,7 @@ impl<S: Real> Extremal<S> {
                 (sin_beta, cos_beta, beta_rate) = (s, c, w * c);
                 a = g * (c * c * u + s) / w;
                 b_q = g * g * (one + c * c - s * c * c * u) / two - two * k * self.p * w * c * c;
+                b_terms = g * g * (one + c * c + s * c * c * u) / two + two * k * self.p * w * c * c;
                 delta_beta = (c * u + s / c) / (S::from_f64(4.0) * k * w);
                 delta_beta_rate = ((one + c * c) / c - s * c * u) / (S::from_f64(4.0) * k);
             }
@@ -168,6 +185,8 @@ impl<S: Real> Extremal<S> {
             b_q,
             chi_turns: S::ZERO,
             chi_rest: a.atan2(b_q),
+            chi_rounding: chi_rounding((a, a.abs()), (b_q, b_terms)),
+            turns_rounding: S::ZERO,
             delta_beta,
             delta_beta_rate,
             elliptic_calls: 0,
@@ -193,6 +212,8 @@ impl<S: Real> Extremal<S> {
         let t = u / self.rate;
         let (lambda, sin_beta, cos_beta, beta_rate, a, b_q, chi, delta_beta, delta_beta_rate);
         let mut chi_turns = S::ZERO;
+        // The sums of the absolute values of the terms of A and B_q.
+        let (a_terms, b_terms);
         match self.regime {
             Regime::RotatingBelow => {
                 let l = self.anisotropy;
@@ -202,6 +223,10 @@ impl<S: Real> Extremal<S> {
                 (sin_beta, cos_beta, beta_rate) = (sign * b * inverse * s / d, sign * c / d, b / d);
                 a = (one + inverse * inverse).sqrt() * second / k;
                 b_q = d2 + l2 * (c2 + (one + inverse * inverse) * second * s * c / d);
+                let second_terms = complementary * (u + z) + (m * s * c / d).abs();
+                let mixed = (one + inverse * inverse) * second_terms * (s * c / d).abs();
+                a_terms = (one + inverse * inverse).sqrt() * second_terms / k;
+                b_terms = d2 + l2 * (c2 + mixed);
                 chi = a.atan2(b_q);
                 delta_beta = second / (two * k * self.rate * d);
                 delta_beta_rate = (d + m * second * s * c / d2) / (two * k);
@@ -214,6 +239,8 @@ impl<S: Real> Extremal<S> {
                 (sin_beta, cos_beta, beta_rate) = (sign * s, sign * c, b * d);
                 a = (g / p) * d2 * x / k;
                 b_q = s2 + c2 / k2 - (w2 + m / k2) * s * c * d * x;
+                a_terms = a.abs();
+                b_terms = s2 + c2 / k2 + ((w2 + m / k2) * s * c * d * x).abs();
                 chi = a.atan2(b_q);
                 delta_beta = d * x / p;
                 delta_beta_rate = (one / d - m * s * c * x) / (two * k);
@@ -226,6 +253,8 @@ impl<S: Real> Extremal<S> {
                 (sin_beta, cos_beta, beta_rate) = (sign * b / w * s, d, sign * b * c);
                 a = sign * g * y / (k * w);
                 b_q = sign * (two * c / k + g * g / (two * k) * s * d * z);
+                a_terms = g / (k * w) * ((s / d).abs() + (c * z).abs());
+                b_terms = (two * c / k).abs() + (g * g / (two * k) * s * d * z).abs();
                 chi_turns = half_turns;
                 chi = continuous_angle(sign * a, sign * b_q, s, c);
                 delta_beta = sign * y / (two * k * w);
@@ -243,6 +272,8 @@ impl<S: Real> Extremal<S> {
             b_q,
             chi_turns,
             chi_rest: chi,
+            chi_rounding: chi_rounding((a, a_terms), (b_q, b_terms)),
+            turns_rounding: S::from_f64(EXCESS_ROUNDING) * S::EPSILON * half_turns * elliptic.excess,
             delta_beta,
             delta_beta_rate,
             elliptic_calls: 3,
@@ -291,6 +322,11 @@ impl<S: Real> Extremal<S> {
             lambda_rate: g / (two * ellipse),
         }
     }
+}
+
+/// How far the angle of `(b_q, a)` moves when both change by [`TERM_ROUNDING`] ε of the terms they are summed from.
+fn chi_rounding<S: Real>((a, a_terms): (S, S), (b_q, b_terms): (S, S)) -> S {
+    S::from_f64(TERM_ROUNDING) * S::EPSILON * ((b_q.abs() * a_terms + a.abs() * b_terms) / (a * a + b_q * b_q))
 }
 
 /// The angle of `(b_q, a)` that differs by less than π from `φ = atan2(s, c)`, `|φ| ≤ π/2`.

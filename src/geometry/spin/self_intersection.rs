@@ -14,8 +14,10 @@ pub const LONGEST_SIDE: f64 = 0.1;
 const FIRST_PIECES: u32 = 40;
 /// Halvings of a piece: enough for passes at a distance of 1e-7 from a pole.
 const MOST_HALVINGS: u32 = 26;
-/// Newton steps; from a polygon's crossing three or four do.
-const MOST_STEPS: u32 = 12;
+/// Newton steps; from a polygon's crossing three or four do, where a loop has just closed some ten.
+const MOST_STEPS: u32 = 40;
+/// How much of the way to an end of the span one step may go.
+const MOST_OF_THE_WAY: f64 = 0.75;
 /// Residual |r(s) − r(t)| below which a crossing counts as found.
 const RESIDUAL: f64 = 1e-13;
 
@@ -84,13 +86,14 @@ pub fn polygon(path: &Kept<f64>, k: f64, t_end: f64) -> Option<Vec<ChartPoint>> 
 /// Domain: as for [`polygon`], whose result `points` is.
 pub fn self_intersections(path: &Kept<f64>, k: f64, points: &[ChartPoint]) -> Vec<SelfIntersection> {
     let mut found: Vec<SelfIntersection> = Vec::new();
+    let t_end = points.last().map_or(0.0, |point| point.t);
     for (j, second) in points.windows(2).enumerate() {
         let (c, d) = (second[0], second[1]);
         for first in points.windows(2).take(j.saturating_sub(1)) {
             let (a, b) = (first[0], first[1]);
             let Some((u, v)) = crossing((a, b), (c, d)) else { continue };
             let guess = (a.t + u * (b.t - a.t), c.t + v * (d.t - c.t));
-            let Some(polished) = polish(path, k, guess) else { continue };
+            let Some(polished) = polish(path, k, t_end, guess) else { continue };
             // A crossing at a corner of the polygon is seen by two pairs of sides.
             let apart = |other: &SelfIntersection| (other.s - polished.s).abs() + (other.t - polished.t).abs() > 1e-6;
             if found.iter().all(apart) {
@@ -123,8 +126,10 @@ fn crossing((a, b): (ChartPoint, ChartPoint), (c, d): (ChartPoint, ChartPoint)) 
 
 /// Newton's iteration on `r(s) = r(t)`: the two arcs as straight lines in their common tangent plane.
 ///
-/// By cross products, since the arcs may cross at an angle of 1e-7, of which normal equations would leave nothing.
-fn polish(path: &Kept<f64>, k: f64, (mut s, mut t): (f64, f64)) -> Option<SelfIntersection> {
+/// By cross products, since the arcs may cross at an angle of 1e-7, of which normal equations would leave nothing. Iterates
+/// stay inside `[0, t_end]`: where a loop has just closed, the crossing lies near both ends, and whole first steps
+/// would leave the span, beyond which the path need not be known.
+fn polish(path: &Kept<f64>, k: f64, t_end: f64, (mut s, mut t): (f64, f64)) -> Option<SelfIntersection> {
     let dot = |a: &[f64; 3], b: &[f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let cross =
         |a: &[f64; 3], b: &[f64; 3]| [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
@@ -140,8 +145,17 @@ fn polish(path: &Kept<f64>, k: f64, (mut s, mut t): (f64, f64)) -> Option<SelfIn
         if square <= 0.0 {
             return None;
         }
-        s += dot(&cross(&gap, &v), &normal) / square;
-        t += dot(&cross(&gap, &u), &normal) / square;
+        let (ds, dt) = (dot(&cross(&gap, &v), &normal) / square, dot(&cross(&gap, &u), &normal) / square);
+        // The largest part of the step that goes most of the way to an end of the span and not beyond.
+        let (back, ahead) = (s * MOST_OF_THE_WAY / -ds, (t_end - t) * MOST_OF_THE_WAY / dt);
+        let mut part = 1.0;
+        for limit in [back, ahead] {
+            if limit > 0.0 && limit < part {
+                part = limit;
+            }
+        }
+        s += part * ds;
+        t += part * dt;
         if !(s >= 0.0 && t > s) {
             return None;
         }

@@ -15,7 +15,7 @@ use thiserror::Error;
 const MOST_EVALUATIONS: u32 = 100;
 /// Evaluations after which the bracket must have halved, or it is halved.
 const CHECK_EVERY: u32 = 4;
-/// An error of the point, in radians, above which there is no answer. (At p_θ = 0 that is k above 2e6.)
+/// An error of the point, in radians, above which there is no answer. (At p_θ = 0 that is k above 8e5.)
 const WORTHLESS: f64 = 1e-2;
 /// Rounding of a time that is not rounding of the phase: of the rate and of u, in ε.
 const ROUNDING_OF_TIME: f64 = 4.0;

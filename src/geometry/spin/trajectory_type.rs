@@ -166,6 +166,9 @@ pub fn classify(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::spin::conjugate::extremal;
+    use crate::geometry::spin::solve::{Quantity, solve};
+    use crate::geometry::spin::switch_points::{Passage, switch_points};
     use std::f64::consts::{FRAC_PI_2, PI};
 
     /// θ may decrease by this much: a hundredth of π.
@@ -248,6 +251,37 @@ mod tests {
             }
         }
         assert!(seen > 50, "{seen}");
+    }
+
+    /// Oracle: the closed form. A loop has just closed where the trajectory comes back to its start, `β = 0` at `λ = 2π`:
+    /// for small `p_θ` that is 0.1443 p_θ² (1/√48) below k̄, where it is δβ that vanishes. Crossings of the two arcs there are at the
+    /// angle p_θ·√(k − k_c) or so, next to both ends; none is lost.
+    #[test]
+    fn type_iii_begins_where_the_trajectory_comes_back_to_its_start() {
+        for p in [3e-5, 1e-4, 3e-4, 1e-3] {
+            let side = |k: f64| {
+                let root = solve(&extremal(&Start::new(k, p).unwrap()), Quantity::Lambda, 2.0).unwrap();
+                root.sin_beta > 0.0
+            };
+            let k_bar = switch_points(Passage::Equator, p, 1.15, 1.16).unwrap()[0].k;
+            let (mut low, mut high) = (1.15, 1.16);
+            assert_ne!(side(low), side(high));
+            while high - low > 4.0 * f64::EPSILON {
+                let middle = 0.5 * (low + high);
+                if side(middle) == side(low) { low = middle } else { high = middle }
+            }
+            // The next term is of order p⁴.
+            assert!(
+                ((k_bar - low) / (p * p) - 48_f64.sqrt().recip()).abs() < 1e-4 + 1e-15 / (p * p),
+                "{p}: {low} {k_bar}"
+            );
+            for i in 0..60 {
+                let beside = 1e-12 * libm::pow(10.0, f64::from(i) / 6.0);
+                let kind = |k: f64| classify(k, p, TOLERANCE, 1e-14).unwrap().kind;
+                assert_eq!(kind(low - beside), TrajectoryType::Returning, "{p} {beside:e}");
+                assert_eq!(kind(low + beside), TrajectoryType::ReturningLoop, "{p} {beside:e}");
+            }
+        }
     }
 
     #[test]

@@ -15,16 +15,16 @@ use crate::numerics::pack::{Mask, Pack};
 
 /// Duplications after which a call gives up: each gains two bits, and the largest ratio of two finite `f64` needs
 /// fewer than 1100.
-const MAX_DUPLICATIONS: usize = 1100;
+pub(super) const MAX_DUPLICATIONS: usize = 1100;
 
 #[inline(always)]
-fn c<S: Pack>(numerator: f64, denominator: f64) -> S {
+pub(super) fn c<S: Pack>(numerator: f64, denominator: f64) -> S {
     S::from_f64(numerator) / S::from_f64(denominator)
 }
 
 /// The value inside the domain, NaN outside.
 #[inline(always)]
-fn within<S: Pack>(domain: S::Mask, value: S) -> S {
+pub(super) fn within<S: Pack>(domain: S::Mask, value: S) -> S {
     S::select(domain, value, S::from_f64(f64::NAN))
 }
 
@@ -94,7 +94,7 @@ pub fn r_c<S: Pack>(x: S, y: S) -> S {
 
 /// The common series of `R_D` and `R_J` in the elementary symmetric functions of the relative deviations.
 #[inline(always)]
-fn second_and_third_kind_series<S: Pack>(e2: S, e3: S, e4: S, e5: S) -> S {
+pub(super) fn second_and_third_kind_series<S: Pack>(e2: S, e3: S, e4: S, e5: S) -> S {
     e2 * (c::<S>(-3.0, 14.0) + e2 * (c::<S>(9.0, 88.0) - c::<S>(1.0, 16.0) * e2))
         + e3 * (c::<S>(1.0, 6.0) + e2 * (c::<S>(-9.0, 52.0) + c::<S>(45.0, 272.0) * e2) + c::<S>(3.0, 40.0) * e3)
         + e4 * (c::<S>(-3.0, 22.0) + c::<S>(3.0, 20.0) * e2 - c::<S>(9.0, 68.0) * e3)
@@ -135,7 +135,7 @@ pub fn r_d<S: Pack>(x: S, y: S, z: S) -> S {
 
 /// The Taylor series of `R_F` about the mean of arguments that are close to each other.
 #[inline(always)]
-fn r_f_series<S: Pack>(x: S, y: S, mean: S) -> S {
+pub(super) fn r_f_series<S: Pack>(x: S, y: S, mean: S) -> S {
     let inverse = S::ONE / mean;
     let dx = (mean - x) * inverse;
     let dy = (mean - y) * inverse;
@@ -149,7 +149,7 @@ fn r_f_series<S: Pack>(x: S, y: S, mean: S) -> S {
 
 /// The Taylor series of `R_D` about the weighted mean of arguments that are close to each other.
 #[inline(always)]
-fn r_d_series<S: Pack>(x: S, y: S, mean: S) -> S {
+pub(super) fn r_d_series<S: Pack>(x: S, y: S, mean: S) -> S {
     let three = S::from_f64(3.0);
     let inverse = S::ONE / mean;
     let dx = (mean - x) * inverse;
@@ -169,6 +169,14 @@ fn r_d_series<S: Pack>(x: S, y: S, mean: S) -> S {
 /// The two share every square root: about 0.6 of the time of both calls. Domain and guarantee: those of [`r_d`].
 #[inline(always)]
 pub fn r_f_and_r_d<S: Pack>(x: S, y: S, z: S) -> (S, S) {
+    r_f_and_r_d_within(S::EPSILON_ROOT_8, x, y, z)
+}
+
+/// [`r_f_and_r_d`] by fewer duplications: until the arguments are within `spread < 1` of their mean, relative to it.
+///
+/// Guarantee: about `spread⁸` relative, and a few ε.
+#[inline(always)]
+pub fn r_f_and_r_d_within<S: Pack>(spread_wanted: S, x: S, y: S, z: S) -> (S, S) {
     let zero = S::ZERO;
     let in_domain = none_negative(x, y, z).and((x + y).more(zero)).and(z.more(zero));
     let quarter = S::from_f64(0.25);
@@ -182,7 +190,7 @@ pub fn r_f_and_r_d<S: Pack>(x: S, y: S, z: S) -> (S, S) {
     for _ in 0..MAX_DUPLICATIONS {
         // The spread about the mean of R_D; about that of R_F it is smaller than 5/3 of the range and both are within the series.
         let spread = (mean - x).abs().max((mean - y).abs()).max((mean - z).abs());
-        let apart = in_domain.and(spread.more(S::EPSILON_ROOT_8 * mean));
+        let apart = in_domain.and(spread.more(spread_wanted * mean));
         if !apart.any() {
             break;
         }

@@ -10,38 +10,10 @@
 //!
 //! Not known here: `n > 1` (Cauchy principal values), complex parameters. Outside its domain a function returns NaN.
 
-use std::cmp::Ordering;
-
 use super::carlson::{r_d, r_j};
+pub(super) use super::mean::MAX_MEAN_STEPS;
+pub use super::mean::complete_k;
 use crate::numerics::real::Real;
-
-/// Steps after which the mean gives up: the square root of the ratio of two `f64` is taken at each of the first ten
-/// steps, then the number of right digits doubles.
-pub(super) const MAX_MEAN_STEPS: usize = 24;
-
-/// First kind, `K(m) = ∫₀^{π/2} dx / √(1 − m sin²x) = π / (2 agm(1, √m'))`.
-///
-/// Domain: `m' ≥ 0` (`m' > 1`, that is `m < 0`, included). Guarantee: 2 ε relative. `m' = 0`: infinity.
-pub fn complete_k<S: Real>(mc: S) -> S {
-    if mc == S::ZERO {
-        return S::from_f64(f64::INFINITY);
-    }
-    if mc.partial_cmp(&S::ZERO) != Some(Ordering::Greater) {
-        return S::from_f64(f64::NAN);
-    }
-    let half = S::from_f64(0.5);
-    let (mut a, mut b) = (S::ONE, mc.sqrt());
-    for _ in 0..MAX_MEAN_STEPS {
-        let mean = (a + b) * half;
-        // The limit differs from this mean by (a − b)²/(16 a): below rounding once |a − b| ≤ √ε a.
-        if (a - b).abs() <= S::EPSILON.sqrt() * a {
-            return S::PI * half / mean;
-        }
-        b = (a * b).sqrt();
-        a = mean;
-    }
-    S::PI * half / a
-}
 
 /// Second kind, `E(m) = ∫₀^{π/2} √(1 − m sin²x) dx`.
 ///

@@ -4,5 +4,7 @@ pub mod carlson;
 pub mod complete;
 pub mod incomplete;
 pub mod jacobi;
+pub mod mean;
 #[cfg(test)]
 pub(crate) mod oracle;
+pub mod third_kind;

@@ -196,6 +196,12 @@ pub struct Expansion<P> {
     highest: usize,
 }
 
+impl<P: Pack> Default for Expansion<P> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
 impl<P: Pack> Expansion<P> {
     /// Room for one.
     pub fn new() -> Self {
@@ -263,7 +269,7 @@ impl<P: Pack> Expansion<P> {
         if first.any() {
             // Members whose step is the first begin later.
             for n in 1..=vanishing_order {
-                sum = sum + P::select(first, P::ZERO, self.scaled[n]);
+                sum += P::select(first, P::ZERO, self.scaled[n]);
                 (lowest, largest) = (lowest.min(sum), largest.max(sum));
             }
             let begun = sum + self.scaled[vanishing_order];
@@ -272,7 +278,7 @@ impl<P: Pack> Expansion<P> {
             largest = P::select(first, sum, largest);
         } else {
             for n in 1..=vanishing_order {
-                sum = sum + self.scaled[n];
+                sum += self.scaled[n];
                 (lowest, largest) = (lowest.min(sum), largest.max(sum));
             }
         }
@@ -281,7 +287,7 @@ impl<P: Pack> Expansion<P> {
                 let counts = P::Mask::from_lanes(|member| n <= self.last[member]);
                 sum = P::select(counts, sum + self.scaled[n], sum);
             } else {
-                sum = sum + self.scaled[n];
+                sum += self.scaled[n];
             }
             (lowest, largest) = (lowest.min(sum), largest.max(sum));
         }

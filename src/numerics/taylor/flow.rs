@@ -277,12 +277,13 @@ fn reversed_dot<S: Algebra>(a: &[S], b: &[S]) -> S {
 /// Coefficient `n` of several products of series at once, `Σ a_i b_{n−i}` of each pair.
 ///
 /// One loop for all of them: a series that stands in several pairs is read once, and the sums do not wait for each other.
+/// The newest coefficients are added last, so that a processor can begin before they are known.
 #[inline(always)]
 pub fn convolve_each<S: Algebra, const K: usize>(pairs: [(&Series<S>, &Series<S>); K], n: usize) -> [S; K] {
     let n = n.min(MAX_ORDER);
     let (mut even, mut odd) = ([S::number(0.0); K], [S::number(0.0); K]);
-    let mut i = 0;
-    while i < n {
+    let mut i = 1;
+    while i + 1 < n {
         let j = (n - i).min(MAX_ORDER);
         for k in 0..K {
             even[k] = even[k] + pairs[k].0[i] * pairs[k].1[j];
@@ -290,13 +291,18 @@ pub fn convolve_each<S: Algebra, const K: usize>(pairs: [(&Series<S>, &Series<S>
         }
         i += 2;
     }
-    if i == n {
+    if i < n {
         for k in 0..K {
-            even[k] = even[k] + pairs[k].0[n] * pairs[k].1[0];
+            even[k] = even[k] + pairs[k].0[i] * pairs[k].1[1];
         }
     }
     for k in 0..K {
-        even[k] = even[k] + odd[k];
+        let (first, second) = (pairs[k].0, pairs[k].1);
+        let mut ends = first[0] * second[n];
+        if n > 0 {
+            ends = ends + first[n] * second[0];
+        }
+        even[k] = (even[k] + odd[k]) + ends;
     }
     even
 }

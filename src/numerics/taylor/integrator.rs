@@ -8,7 +8,7 @@
 use crate::numerics::counts::Work;
 use crate::numerics::real::Real;
 use crate::numerics::taylor::flow::{Algebra, Elements, Flow};
-use crate::numerics::taylor::step::{ErrorNorm, Jet, StepPolicy, horner_increment};
+use crate::numerics::taylor::step::{ErrorNorm, Jet, StepPolicy, horner_increment, horner_increments};
 use std::ops::ControlFlow;
 
 /// Steps after which an integration gives up unless told otherwise. 1e4 periods of the article's problems take some
@@ -249,9 +249,10 @@ pub fn integrate<S: Real, F: Flow<S>, O: Observer<S, F>>(
         if observer.observe(&step, &mut work).is_break() {
             return Ok(Arrival { time: time.plus(S::ZERO), state, stopped: true, work });
         }
+        let increments = horner_increments::<S, F>(&jet.state, order, length);
         for i in 0..dimension {
             let mut sum = Compensated { value: *state.get(i), rest: *rest.get(i) };
-            sum.add(horner_increment(jet.state.get(i), order, length));
+            sum.add(*increments.get(i));
             *state.get_mut(i) = sum.value;
             *rest.get_mut(i) = sum.rest;
         }

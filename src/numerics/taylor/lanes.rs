@@ -12,7 +12,7 @@ use crate::numerics::pack::{Mask, Pack};
 use crate::numerics::taylor::events::{EventFunction, Expansion, ZeroCluster, Zeros};
 use crate::numerics::taylor::flow::{Elements, Flow};
 use crate::numerics::taylor::integrator::{Compensated, IntegrationError, Settings};
-use crate::numerics::taylor::step::{Jet, StepPolicy, horner_increment};
+use crate::numerics::taylor::step::{Jet, StepPolicy, horner_increments};
 use std::ops::ControlFlow;
 
 /// Lanes of the widest pack.
@@ -135,9 +135,9 @@ where
     let mut steps = 0;
     // When the first lane may have taken as many steps as are allowed.
     let mut first_limit = settings.maximum_steps;
-    for lane in 0..P::WIDTH {
-        reload(lane, &mut more, starts, &mut flow, (&mut state, &mut rest, &mut time), &mut lanes[lane]);
-        end = end.with_lane(lane, lanes[lane].end);
+    for (lane, of) in lanes.iter_mut().enumerate().take(P::WIDTH) {
+        reload(lane, &mut more, starts, &mut flow, (&mut state, &mut rest, &mut time), of);
+        end = end.with_lane(lane, of.end);
     }
     let mut busy = P::Mask::from_lanes(|lane| lanes[lane].busy);
     let mut holding = P::Mask::splat(false);
@@ -150,7 +150,7 @@ where
         length = P::select(last, remaining, length);
         length = P::select(busy, length, P::ZERO);
         // Lanes whose step can't be taken. A length that is not a number is not finite either.
-        let finite = (length - length).equals(P::ZERO);
+        let finite = length.abs().less(P::from_f64(f64::INFINITY));
         let advances = last.or((time.value + length).equals(time.value).not());
         let mut done = P::Mask::splat(false);
         let trouble = busy.and(finite.and(advances).not());
@@ -212,9 +212,9 @@ where
         }
         if hit.any() {
             let mut at = F::State::<P>::filled(P::ZERO);
+            let increments = horner_increments::<P, F>(&jet.state, order, offsets);
             for i in 0..dimension {
-                let series = jet.state.get(i);
-                *at.get_mut(i) = series[0] + (*rest.get(i) + horner_increment(series, order, offsets));
+                *at.get_mut(i) = jet.state.get(i)[0] + (*rest.get(i) + *increments.get(i));
             }
             let times = time.plus(offsets);
             for (lane, of) in lanes.iter_mut().enumerate().take(P::WIDTH) {
@@ -229,9 +229,10 @@ where
             done = done.or(hit);
         }
         // The others move on.
+        let increments = horner_increments::<P, F>(&jet.state, order, length);
         for i in 0..dimension {
             let mut sum = Compensated { value: *state.get(i), rest: *rest.get(i) };
-            sum.add(horner_increment(jet.state.get(i), order, length));
+            sum.add(*increments.get(i));
             *state.get_mut(i) = sum.value;
             *rest.get_mut(i) = sum.rest;
         }
@@ -266,12 +267,12 @@ where
             }
         }
         if done.any() {
-            for lane in 0..P::WIDTH {
+            for (lane, of) in lanes.iter_mut().enumerate().take(P::WIDTH) {
                 if done.lane(lane) {
-                    lanes[lane].zeros = Zeros::new((), vanishing_order);
-                    lanes[lane].loaded_at = steps;
-                    reload(lane, &mut more, starts, &mut flow, (&mut state, &mut rest, &mut time), &mut lanes[lane]);
-                    end = end.with_lane(lane, lanes[lane].end);
+                    of.zeros = Zeros::new((), vanishing_order);
+                    of.loaded_at = steps;
+                    reload(lane, &mut more, starts, &mut flow, (&mut state, &mut rest, &mut time), of);
+                    end = end.with_lane(lane, of.end);
                 }
             }
             busy = P::Mask::from_lanes(|lane| lanes[lane].busy);
@@ -359,7 +360,7 @@ impl<P, F, T, O, L, D> Starts<P, F> for Slice<'_, T, O, L, D>
 where
     P: Pack<Scalar = f64>,
     F: Flow<P>,
-    L: FnMut(&T, usize, &mut F, &mut F::State<P>) -> Result<f64, O>,
+    L: FnMut(&T, usize, &mut F, &mut F::State<P>) -> Result<f64, Box<O>>,
     D: FnMut(&T, Result<LaneArrival<F::State<f64>>, IntegrationError>) -> O,
 {
     #[inline(always)]
@@ -372,7 +373,7 @@ where
                     self.loaded[lane] = index;
                     return Some(end);
                 }
-                Err(outcome) => self.outcomes[index] = Some(outcome),
+                Err(outcome) => self.outcomes[index] = Some(*outcome),
             }
         }
         None
