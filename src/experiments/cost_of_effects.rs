@@ -167,11 +167,11 @@ pub const EXPERIMENT: Experiment = Experiment::of::<Cost>();
 
 const PICTURE: Kind = picture_kind(
     "cost_of_effects-picture",
-    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "plot", "table"],
+    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "plot", "table"],
 );
 const MEASURED_PICTURE: Kind = picture_kind(
     "cost_of_effects-measured-picture",
-    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "plot", "table"],
+    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "plot", "table"],
 );
 const FINDINGS: Kind = findings_kind(
     "cost_of_effects-findings",
@@ -181,7 +181,7 @@ const FINDINGS: Kind = findings_kind(
         "experiments/cost_of_effects.rs",
         "experiments/definition.rs",
         "experiments/findings.rs",
-        "experiments/scenes",
+        "experiments/scenes", "experiments/spin_branches.rs",
         "table",
     ],
 );
