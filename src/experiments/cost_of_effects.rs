@@ -181,7 +181,8 @@ const FINDINGS: Kind = findings_kind(
         "experiments/cost_of_effects.rs",
         "experiments/definition.rs",
         "experiments/findings.rs",
-        "experiments/scenes", "experiments/spin_branches.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
         "table",
     ],
 );
