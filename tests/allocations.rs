@@ -13,6 +13,7 @@ use polhode::numerics::taylor::dense::{Kept, SampleAt};
 use polhode::numerics::taylor::events::{Component, Events};
 use polhode::numerics::taylor::flow::{Columns, Joined, WithColumns};
 use polhode::numerics::taylor::integrator::Settings;
+use polhode::numerics::taylor::monitor::Invariant;
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 
@@ -101,6 +102,15 @@ fn no_step_allocates<M: Method>(method: M) {
             work
         };
         assert_eq!(per_run(samples), 2, "{}: samples", M::NAME);
+        let watched = |end| {
+            let mut monitor = Invariant::relative(|state: &[f64; 6]| flow.energy(state));
+            let work = method.integrate(&flow, &BASE, (0.0, end), &settings, &mut monitor).unwrap().work;
+            // Growing in time, with the request: far from a drift that is not noticed.
+            assert!(monitor.largest_drift() < 1e4 * tolerance, "{}: {}", M::NAME, monitor.largest_drift());
+            assert_eq!(work.monitor_evaluations, work.steps + 1);
+            work
+        };
+        assert_eq!(per_run(watched), 0, "{}: watched energy", M::NAME);
         // Kept series: one allocation for each step kept, and the list of steps, which doubles.
         let (kept, allocations) = counted(|| {
             let mut kept = Kept::new();

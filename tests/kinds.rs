@@ -7,13 +7,15 @@ use polhode::contract::code;
 use polhode::contract::node::Kind;
 use polhode::contract::plan::{ConfigSource, Plan};
 use polhode::experiments;
+use polhode::experiments::definition::Request;
 use std::collections::BTreeMap;
 
 /// The plans of the committed configs, and of the configs that scenes begin with, which ask for every effect of every metric.
 fn plans() -> Vec<Plan> {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/experiments");
     let plan = |experiment: &experiments::definition::Experiment, file: String, text: String| {
-        let planned = experiment.plan(experiment.kind, &ConfigSource { file, text }, None);
+        let request = Request { measure: true, ..Request::default() };
+        let planned = experiment.plan_requested(experiment.kind, &ConfigSource { file, text }, request);
         planned.unwrap_or_else(|error| panic!("{error}")).plan
     };
     let mut plans = Vec::new();
@@ -79,4 +81,23 @@ fn only_pictures_depend_on_how_things_are_drawn() {
         assert!(!(is_picture && (has("numerics") || has("geometry"))), "{} reaches numerics", kind.name);
         assert!(!(has("pipeline") || has("cli")), "{} reaches the runner", kind.name);
     }
+}
+
+/// A time can reach a table only by code that reads the clock, and only measurements declare such code.
+#[test]
+fn only_measurements_read_the_clock() {
+    let mut clocks = 0;
+    for kind in kinds().values() {
+        let listing = code::listing(kind).expect("code that exists");
+        for (file, _) in listing.lines.iter().filter(|(file, _)| file.ends_with(".rs")) {
+            let text = std::fs::read_to_string(format!("{}/src/{file}", env!("CARGO_MANIFEST_DIR"))).expect("a file");
+            let program = text.split("#[cfg(test)]").next().unwrap_or_default();
+            if program.contains("std::time") || program.contains("Instant::now") || program.contains("SystemTime") {
+                assert!(kind.measurement, "{} depends on {file}, which reads the clock", kind.name);
+                clocks += 1;
+            }
+        }
+    }
+    // The three problems of `cost_of_effects`: else the search would find nothing at all.
+    assert!(clocks >= 3, "measurements without a clock: {clocks}");
 }

@@ -89,6 +89,8 @@ fn counted(work: &Work) -> String {
         elliptic_calls,
         roots_solved,
         dense_points,
+        kept_coefficients,
+        monitor_evaluations,
         rows,
     } = work;
     let counts = [
@@ -100,6 +102,8 @@ fn counted(work: &Work) -> String {
         ("elliptic_calls", elliptic_calls),
         ("roots_solved", roots_solved),
         ("dense_points", dense_points),
+        ("kept_coefficients", kept_coefficients),
+        ("monitor_evaluations", monitor_evaluations),
         ("rows", rows),
     ];
     let done: Vec<String> =

@@ -99,6 +99,7 @@ pub struct RunArguments {
   polhode figures fig7 fig8       two experiments
   polhode figures --dry-run       what would run, and why; nothing is written
   polhode figures fig7 --watch    draw again whenever a config is saved; Ctrl-C ends
+  polhode figures cost_of_effects --measure          times on this machine, into figures/measured/
   polhode figures --out /tmp/f --store /tmp/s --jobs 1")]
 pub struct FiguresArguments {
     /// Experiments (fig7), outputs (figures/fig7.svg) or nodes (fig7/conjugate-locus/k=0.8); all where none is given
@@ -107,6 +108,9 @@ pub struct FiguresArguments {
     /// Where and how.
     #[command(flatten)]
     pub run: RunArguments,
+    /// Measure times too, into OUT/measured/; what was measured on this machine stands until --force measures again
+    #[arg(long)]
+    pub measure: bool,
     /// Compute again even what is up to date
     #[arg(long)]
     pub force: bool,
@@ -117,7 +121,7 @@ pub struct FiguresArguments {
     #[arg(long)]
     pub dry_run: bool,
     /// Run again whenever a config is saved, until Ctrl-C
-    #[arg(long, conflicts_with_all = ["dry_run", "force", "json"])]
+    #[arg(long, conflicts_with_all = ["dry_run", "force", "json", "measure"])]
     pub watch: bool,
 }
 

@@ -6,6 +6,7 @@ use crate::cli::console::{self, ConsoleError};
 use crate::cli::exit::Exit;
 use crate::cli::progress::{Shown, Style};
 use crate::cli::session::Session;
+use crate::experiments::definition::MEASURED_FOLDER;
 use crate::pipeline::forecast::forecast;
 use crate::pipeline::report::{ExportStatus, Outcome, Report, Status};
 use crate::pipeline::run::run as run_pipeline;
@@ -19,7 +20,8 @@ const SCHEMA: u32 = 1;
 /// # Errors
 /// Standard output that can't be written.
 pub fn run(arguments: &FiguresArguments) -> Result<Exit, ConsoleError> {
-    let mut session = match Session::begin(&arguments.run.place, &arguments.targets) {
+    let begin = if arguments.measure { Session::begin_measuring } else { Session::begin };
+    let mut session = match begin(&arguments.run.place, &arguments.targets) {
         Ok(session) => session,
         Err(refused) => return Ok(refused.tell()),
     };
@@ -36,6 +38,9 @@ pub fn run(arguments: &FiguresArguments) -> Result<Exit, ConsoleError> {
         console::data(&format!("{value:#}\n"))?;
     }
     summarise(&session, &report, &changes);
+    if !arguments.measure {
+        tell_measurements(&session);
+    }
     if !arguments.targets.is_empty() {
         for id in session.stale_in_values_file() {
             console::message(&format!(
@@ -77,6 +82,19 @@ fn dry_run(session: &Session, as_json: bool) -> Result<Exit, ConsoleError> {
         console::data(&forecast.text())?;
     }
     Ok(if forecast.is_idle() { Exit::Success } else { Exit::GoldenDiffers })
+}
+
+/// Says where the last measurement lies of the experiments that have one and were not measured in this run.
+fn tell_measurements(session: &Session) {
+    for experiment in session.experiments.iter().filter(|experiment| experiment.measures) {
+        let id = &experiment.plan.id;
+        let picture = session.workspace.out.join(MEASURED_FOLDER).join(format!("{id}.svg"));
+        if picture.is_file() {
+            console::message(&format!("{id}: times as last measured: {}", picture.display()));
+        } else {
+            console::message(&format!("{id}: times not measured here: polhode figures {id} --measure"));
+        }
+    }
 }
 
 /// Says on standard error what a run did.

@@ -9,7 +9,7 @@ use crate::cli::workspace::{Loaded, Workspace, WorkspaceError};
 use crate::contract::accuracy::Accuracy;
 use crate::contract::node::Address;
 use crate::contract::value::Findings;
-use crate::experiments::definition::{FINDINGS_FILE, FINDINGS_NODE};
+use crate::experiments::definition::{FINDINGS_FILE, FINDINGS_NODE, MEASURED_FOLDER};
 use crate::pipeline::graph::Graph;
 use crate::pipeline::report::Report;
 use crate::pipeline::run::Options;
@@ -77,7 +77,18 @@ impl Session {
     /// # Errors
     /// Wrong configs, unknown targets, no place to work in.
     pub fn begin(place: &PlaceArguments, targets: &[String]) -> Result<Self, Refused> {
-        let workspace = Workspace::find(place)?;
+        Self::begin_in(Workspace::find(place)?, targets)
+    }
+
+    /// The same, with the experiments' measurements among what is planned.
+    ///
+    /// # Errors
+    /// As [`Session::begin`].
+    pub fn begin_measuring(place: &PlaceArguments, targets: &[String]) -> Result<Self, Refused> {
+        Self::begin_in(Workspace { measure: true, ..Workspace::find(place)? }, targets)
+    }
+
+    fn begin_in(workspace: Workspace, targets: &[String]) -> Result<Self, Refused> {
         let folder = workspace.store.join(STORE_FORMAT);
         if let Some(file) = folder.ancestors().find(|path| path.exists()).filter(|path| !path.is_dir()) {
             let text =
@@ -85,6 +96,13 @@ impl Session {
             return Err(Refused { exit: Exit::Store, text });
         }
         let targets: Vec<String> = targets.iter().map(|target| workspace.relative(target)).collect();
+        let of_measurements = |target: &&String| target.starts_with(&format!("{MEASURED_FOLDER}/"));
+        if let Some(target) = targets.iter().find(of_measurements).filter(|_| !workspace.measure) {
+            let text = format!(
+                "{target} is a measurement, which is part of nothing else\n  measure it: polhode figures {target} --measure"
+            );
+            return Err(Refused { exit: Exit::Usage, text });
+        }
         // What is asked of values.toml is asked of the whole.
         let of_values = |target: &String| [collected::ID, collected::VALUES_FILE].contains(&target.as_str());
         let whole = targets.is_empty() || targets.iter().any(of_values);
@@ -162,7 +180,7 @@ impl Session {
 
 /// The folders below the output folder that hold other things: measurements, the article page, other levels of accuracy.
 fn unscanned(workspace: &Workspace) -> Vec<String> {
-    let mut folders = vec!["measured".to_owned(), "article".to_owned(), Accuracy::Draft.to_string()];
+    let mut folders = vec![MEASURED_FOLDER.to_owned(), "article".to_owned(), Accuracy::Draft.to_string()];
     for entry in std::fs::read_dir(&workspace.out).into_iter().flatten().flatten() {
         if let Ok(name) = entry.file_name().into_string()
             && name.parse::<Accuracy>().is_ok()

@@ -6,7 +6,7 @@ use crate::contract::config::{self, ConfigError};
 use crate::contract::digest::Digest;
 use crate::contract::plan::{ConfigSource, Plan};
 use crate::experiments;
-use crate::experiments::definition::PlanError;
+use crate::experiments::definition::{MEASURED_FOLDER, PlanError, Request};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -30,6 +30,8 @@ pub struct Workspace {
     pub root: PathBuf,
     /// The accuracy that the command line puts in place of the configs'.
     pub accuracy: Option<Accuracy>,
+    /// Whether measurements are planned too.
+    pub measure: bool,
 }
 
 /// An experiment, planned, and the digest of its config's values.
@@ -45,6 +47,8 @@ pub struct Loaded {
     pub place: &'static str,
     /// The digest of its config's values.
     pub config_digest: Digest,
+    /// Whether it has measurements, planned or not.
+    pub measures: bool,
 }
 
 /// Why the configs can't be used.
@@ -127,7 +131,7 @@ impl Workspace {
             out = out.join(level.to_string());
         }
         let store = place.store.clone().unwrap_or_else(|| root.join(STORE));
-        Ok(Self { experiments, out, store, root, accuracy })
+        Ok(Self { experiments, out, store, root, accuracy, measure: false })
     }
 
     /// The configs there are: id and file, by id.
@@ -165,7 +169,7 @@ impl Workspace {
             if !wanted.is_empty() && !wanted.contains(id) {
                 continue;
             }
-            match load_one(id, path)(self.accuracy) {
+            match load_one(id, path, Request { accuracy: self.accuracy, measure: self.measure }) {
                 Ok(experiment) => loaded.push(experiment),
                 Err(WorkspaceError::Configs(errors)) => wrong.extend(errors),
                 Err(other) => return Err(other),
@@ -179,10 +183,15 @@ impl Workspace {
         let inside = self.relative(target);
         let known = |id: &str| configs.iter().any(|(known, _)| known == id);
         let first = inside.split('/').next().unwrap_or_default();
+        let below = |folder: &str| {
+            let rest = inside.strip_prefix(folder).and_then(|rest| rest.strip_prefix('/'));
+            rest.and_then(|rest| rest.split('/').next()).unwrap_or_default()
+        };
         let candidates = [
             inside.strip_suffix(".svg").unwrap_or(&inside).to_owned(),
             first.to_owned(),
-            inside.strip_prefix("data/").and_then(|rest| rest.split('/').next()).unwrap_or_default().to_owned(),
+            below("data").to_owned(),
+            below(MEASURED_FOLDER).trim_end_matches(".svg").to_owned(),
         ];
         candidates.into_iter().find(|candidate| known(candidate)).ok_or_else(|| WorkspaceError::UnknownTarget {
             target: target.to_owned(),
@@ -210,26 +219,26 @@ fn sort_key(id: &str) -> (String, u64, String) {
     (stem, number, id.to_owned())
 }
 
-fn load_one<'a>(id: &'a str, path: &'a Path) -> impl Fn(Option<Accuracy>) -> Result<Loaded, WorkspaceError> + 'a {
-    move |accuracy| {
-        let file = path.display().to_string();
-        let text =
-            std::fs::read_to_string(path).map_err(|error| WorkspaceError::Unreadable { path: file.clone(), error })?;
-        let kind = config::peek_kind(&file, &text).map_err(|error| WorkspaceError::Configs(vec![error]))?;
-        let experiment = experiments::ALL.iter().find(|experiment| experiment.kind == kind).ok_or_else(|| {
-            let known: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.kind).collect();
-            WorkspaceError::Configs(vec![config::unknown_kind(&file, &text, &known)])
-        })?;
-        let planned = experiment.plan(id, &ConfigSource { file, text }, accuracy).map_err(|error| match error {
+fn load_one(id: &str, path: &Path, request: Request) -> Result<Loaded, WorkspaceError> {
+    let file = path.display().to_string();
+    let text =
+        std::fs::read_to_string(path).map_err(|error| WorkspaceError::Unreadable { path: file.clone(), error })?;
+    let kind = config::peek_kind(&file, &text).map_err(|error| WorkspaceError::Configs(vec![error]))?;
+    let experiment = experiments::ALL.iter().find(|experiment| experiment.kind == kind).ok_or_else(|| {
+        let known: Vec<&str> = experiments::ALL.iter().map(|experiment| experiment.kind).collect();
+        WorkspaceError::Configs(vec![config::unknown_kind(&file, &text, &known)])
+    })?;
+    let planned =
+        experiment.plan_requested(id, &ConfigSource { file, text }, request).map_err(|error| match error {
             PlanError::Config(error) => WorkspaceError::Configs(vec![*error]),
             PlanError::Defect { .. } => WorkspaceError::Defect(error.to_string()),
         })?;
-        Ok(Loaded {
-            plan: planned.plan,
-            kind: experiment.kind,
-            title: experiment.title,
-            place: experiment.place,
-            config_digest: planned.config_digest,
-        })
-    }
+    Ok(Loaded {
+        plan: planned.plan,
+        kind: experiment.kind,
+        title: experiment.title,
+        place: experiment.place,
+        config_digest: planned.config_digest,
+        measures: experiment.measures,
+    })
 }

@@ -23,8 +23,19 @@ pub struct Work {
     pub roots_solved: u64,
     /// Points of dense output.
     pub dense_points: u64,
+    /// Coefficients of series kept beyond their step; not written where there is none.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub kept_coefficients: u64,
+    /// Evaluations of watched invariants; not written where there is none.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub monitor_evaluations: u64,
     /// Rows of the result.
     pub rows: u64,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks for a reference")]
+fn is_zero(count: &u64) -> bool {
+    *count == 0
 }
 
 impl AddAssign for Work {
@@ -37,6 +48,8 @@ impl AddAssign for Work {
         self.elliptic_calls += other.elliptic_calls;
         self.roots_solved += other.roots_solved;
         self.dense_points += other.dense_points;
+        self.kept_coefficients += other.kept_coefficients;
+        self.monitor_evaluations += other.monitor_evaluations;
         self.rows += other.rows;
     }
 }

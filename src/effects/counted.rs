@@ -13,6 +13,8 @@ pub fn integrated(work: counts::Work) -> Work {
         event_evaluations: work.event_evaluations,
         roots_solved: work.roots_found,
         dense_points: work.dense_points,
+        kept_coefficients: work.kept_coefficients,
+        monitor_evaluations: work.monitor_evaluations,
         ..Work::default()
     }
 }

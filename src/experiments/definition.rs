@@ -76,7 +76,32 @@ pub trait Definition: 'static {
     /// # Errors
     /// A table that is missing, or without the evidence.
     fn claims(params: &Self::Params, tables: &Tables) -> Result<Vec<Claim>, NodeError>;
+
+    /// What it measures on demand; most measure nothing.
+    const MEASURED: Option<Measured<Self::Params>> = None;
 }
+
+/// What an experiment measures when `--measure` asks for it: times, which no committed file, value or claim may hold.
+pub struct Measured<P> {
+    /// The kind of the picture node that draws the measurements: see [`picture_kind`].
+    pub picture_kind: &'static Kind,
+    /// Asks for nodes, whose kinds are measurements.
+    pub nodes: fn(&P, &mut Nodes) -> Result<(), NodeError>,
+    /// The picture of their tables.
+    pub picture: fn(&P, &Tables) -> Result<Picture, NodeError>,
+}
+
+/// What is asked of a plan beside what the config says.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Request {
+    /// Put in place of the config's accuracy.
+    pub accuracy: Option<Accuracy>,
+    /// Whether the experiment's measurements are part of the plan.
+    pub measure: bool,
+}
+
+/// The folder of measurements below the output folder: nothing in it is committed or compared.
+pub const MEASURED_FOLDER: &str = "measured";
 
 /// The kind of a picture node whose code is in `code`: the experiment's own file and the plot and table rooms.
 pub const fn picture_kind(name: &'static str, code: &'static [&'static str]) -> Kind {
@@ -97,7 +122,9 @@ pub struct Experiment {
     pub title: &'static str,
     /// Where it stands in the article.
     pub place: &'static str,
-    plan: fn(&str, &ConfigSource, Option<Accuracy>) -> Result<Planned, PlanError>,
+    /// Whether it has measurements.
+    pub measures: bool,
+    plan: fn(&str, &ConfigSource, Request) -> Result<Planned, PlanError>,
 }
 
 /// A plan, and the digest of the config it was made from (of its values: layout and comments are free).
@@ -128,7 +155,7 @@ pub enum PlanError {
 impl Experiment {
     /// The constant of a definition.
     pub const fn of<D: Definition>() -> Self {
-        Self { kind: D::ID, title: D::TITLE, place: D::PLACE, plan: plan::<D> }
+        Self { kind: D::ID, title: D::TITLE, place: D::PLACE, measures: D::MEASURED.is_some(), plan: plan::<D> }
     }
 
     /// Reads a config and plans its nodes; `id` is the stem of the config's file name.
@@ -136,16 +163,24 @@ impl Experiment {
     /// # Errors
     /// A wrong config, by file, line, column and key.
     pub fn plan(&self, id: &str, source: &ConfigSource, accuracy: Option<Accuracy>) -> Result<Planned, PlanError> {
-        (self.plan)(id, source, accuracy)
+        self.plan_requested(id, source, Request { accuracy, measure: false })
+    }
+
+    /// The same with all that can be asked of a plan.
+    ///
+    /// # Errors
+    /// As [`Experiment::plan`].
+    pub fn plan_requested(&self, id: &str, source: &ConfigSource, request: Request) -> Result<Planned, PlanError> {
+        (self.plan)(id, source, request)
     }
 }
 
-fn plan<D: Definition>(id: &str, source: &ConfigSource, accuracy: Option<Accuracy>) -> Result<Planned, PlanError> {
+fn plan<D: Definition>(id: &str, source: &ConfigSource, request: Request) -> Result<Planned, PlanError> {
     let mut params: D::Params =
         config::read(&source.file, &source.text).map_err(|error| PlanError::Config(Box::new(error)))?;
     let defect = |error: NodeError| PlanError::Defect { id: id.to_owned(), error };
     let undescribable = |error: manifest::NotDescribable| defect(NodeError::new(error.to_string()));
-    if let Some(accuracy) = accuracy {
+    if let Some(accuracy) = request.accuracy {
         D::set_accuracy(&mut params, accuracy);
     }
     let mut config = Manifest { lines: manifest::describe(&params).map_err(undescribable)? };
@@ -166,9 +201,12 @@ fn plan<D: Definition>(id: &str, source: &ConfigSource, accuracy: Option<Accurac
             artifact: crate::effects::product::TABLE.to_owned(),
         });
     }
+    if let Some(measured) = D::MEASURED.filter(|_| request.measure) {
+        add_measurements(id, &params, &measured, &mut plan).map_err(defect)?;
+    }
     let readers: [(&str, &str, Node); 2] = [
         (PICTURE_FILE, "svg", {
-            let reader = Picturing::<D> { id: id.to_owned(), params: params.clone() };
+            let reader = Picturing { id: id.to_owned(), params: params.clone(), kind: D::PICTURE, draw: drawn::<D> };
             Node::new(Address::new(id, "picture"), reader).map_err(undescribable)?.origin(CONFIG, "")
         }),
         (FINDINGS_FILE, "json", {
@@ -186,6 +224,35 @@ fn plan<D: Definition>(id: &str, source: &ConfigSource, accuracy: Option<Accurac
     Ok(Planned { plan, config_digest: config.key() })
 }
 
+/// Adds the nodes that measure, and the picture of what they measured.
+fn add_measurements<P: Serialize + Clone + Send + Sync + 'static>(
+    id: &str,
+    params: &P,
+    measured: &Measured<P>,
+    plan: &mut Plan,
+) -> Result<(), NodeError> {
+    let mut nodes = Nodes::new(id);
+    (measured.nodes)(params, &mut nodes)?;
+    let (nodes, tables) = nodes.finish();
+    let undescribable = |error: manifest::NotDescribable| NodeError::new(error.to_string());
+    let reader =
+        Picturing { id: id.to_owned(), params: params.clone(), kind: measured.picture_kind, draw: measured.picture };
+    let mut picture =
+        Node::new(Address::new(id, "measured-picture"), reader).map_err(undescribable)?.origin(CONFIG, "");
+    let mut export = |path: String, from: &Address, artifact: &str| {
+        plan.exports.push(Export { path, from: from.clone(), artifact: artifact.to_owned() });
+    };
+    for (name, address) in &tables {
+        let path = format!("{MEASURED_FOLDER}/{id}/{}.parquet", address.file_stem());
+        export(path, address, crate::effects::product::TABLE);
+        picture = picture.input(name.clone(), address, crate::effects::product::TABLE);
+    }
+    export(format!("{MEASURED_FOLDER}/{id}.svg"), &picture.address, PICTURE_FILE);
+    plan.nodes.extend(nodes);
+    plan.nodes.push(picture);
+    Ok(())
+}
+
 fn read_tables(inputs: &Inputs) -> Result<Tables, NodeError> {
     let mut tables = Tables::new();
     for (name, file) in inputs.iter() {
@@ -196,17 +263,26 @@ fn read_tables(inputs: &Inputs) -> Result<Tables, NodeError> {
     Ok(tables)
 }
 
+/// The picture of what the scene asks for: the experiment's own, with what else is computed drawn under it.
+fn drawn<D: Definition>(params: &D::Params, tables: &Tables) -> Result<Picture, NodeError> {
+    let asked = D::asked(params);
+    let own = if asked.own { D::picture(params, tables)? } else { Picture::new(Width::Double, LEGEND_MM, D::TITLE) };
+    asked.drawn_under(own, tables)
+}
+
 /// The node that draws.
-struct Picturing<D: Definition> {
+struct Picturing<P> {
     id: String,
-    params: D::Params,
+    params: P,
+    kind: &'static Kind,
+    draw: fn(&P, &Tables) -> Result<Picture, NodeError>,
 }
 
 /// Where the leaves of a picture's parameters stand in its manifest.
 const CONFIG: &str = "config";
 
 /// The picture names its experiment and shows its parameters, so both are leaves of its manifest.
-impl<D: Definition> Serialize for Picturing<D> {
+impl<P: Serialize> Serialize for Picturing<P> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         #[derive(Serialize)]
         struct Leaves<'a, P> {
@@ -217,20 +293,14 @@ impl<D: Definition> Serialize for Picturing<D> {
     }
 }
 
-impl<D: Definition> Compute for Picturing<D> {
+impl<P: Serialize + Send + Sync> Compute for Picturing<P> {
     fn kind(&self) -> &'static Kind {
-        D::PICTURE
+        self.kind
     }
 
     fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
         let tables = read_tables(inputs)?;
-        let asked = D::asked(&self.params);
-        let own = if asked.own {
-            D::picture(&self.params, &tables)?
-        } else {
-            Picture::new(Width::Double, LEGEND_MM, D::TITLE)
-        };
-        let mut picture = asked.drawn_under(own, &tables)?;
+        let mut picture = (self.draw)(&self.params, &tables)?;
         picture.metadata.push(("experiment".to_owned(), self.id.clone()));
         for line in manifest::describe(&self.params).map_err(|error| NodeError::new(error.to_string()))? {
             picture.metadata.push((format!("config {}", line.path), line.leaf.to_string()));

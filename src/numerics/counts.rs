@@ -23,6 +23,10 @@ pub struct Work {
     pub roots_found: u64,
     /// States evaluated inside steps.
     pub dense_points: u64,
+    /// Coefficients of series kept beyond their step.
+    pub kept_coefficients: u64,
+    /// Evaluations of a watched invariant: one at the start, one for each step.
+    pub monitor_evaluations: u64,
 }
 
 impl Work {
@@ -37,6 +41,8 @@ impl Work {
             root_isolations: self.root_isolations + other.root_isolations,
             roots_found: self.roots_found + other.roots_found,
             dense_points: self.dense_points + other.dense_points,
+            kept_coefficients: self.kept_coefficients + other.kept_coefficients,
+            monitor_evaluations: self.monitor_evaluations + other.monitor_evaluations,
         }
     }
 }
@@ -49,6 +55,8 @@ mod tests {
     fn adding_keeps_the_largest_dimension_and_sums_the_rest() {
         let first = Work { state_dimension: 9, steps: 3, roots_found: 1, ..Work::default() };
         let second = Work { state_dimension: 6, steps: 4, dense_points: 2, ..Work::default() };
+        let watched = Work { monitor_evaluations: 4, kept_coefficients: 5, ..Work::default() };
+        assert_eq!(watched.plus(watched), Work { monitor_evaluations: 8, kept_coefficients: 10, ..Work::default() });
         let sum = first.plus(second);
         assert_eq!((sum.state_dimension, sum.steps, sum.roots_found, sum.dense_points), (9, 7, 1, 2));
     }

@@ -62,7 +62,9 @@ fn attempt(graph: &Graph, store: &Store, job: Job) -> Result<Done, Failure> {
     let (record, replaced) = keep(graph, store, &job, &product).map_err(Failure::Store)?;
     // From here on another run finds the result in the store.
     drop(job.lock);
-    let differs = job.previous.as_ref().map_or_else(Vec::new, |previous| differing(previous, &record));
+    // A measurement comes out otherwise each time, and that is no fault of it.
+    let pinned = job.previous.as_ref().filter(|_| !graph.nodes[job.node].node.compute.kind().measurement);
+    let differs = pinned.map_or_else(Vec::new, |previous| differing(previous, &record));
     let exports = job.outgoing.iter().map(|outgoing| bring(graph, store, &record, &product, outgoing)).collect();
     Ok(Done { record, duration, differs, exports, replaced })
 }

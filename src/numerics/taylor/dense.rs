@@ -126,12 +126,13 @@ impl<S: Real> Kept<S> {
 }
 
 impl<S: Real, F: Flow<S>> Observer<S, F> for Kept<S> {
-    fn observe(&mut self, step: &Step<'_, S, F>, _: &mut Work) -> ControlFlow<()> {
+    fn observe(&mut self, step: &Step<'_, S, F>, work: &mut Work) -> ControlFlow<()> {
         let components = <F::State<S> as Elements<S>>::LEN;
         let mut coefficients = Vec::with_capacity(components * (step.jet.order() + 1));
         for i in 0..components {
             coefficients.extend_from_slice(&step.jet.state.get(i)[..=step.jet.order()]);
         }
+        work.kept_coefficients += coefficients.len() as u64;
         let (start, start_rest) = (step.start.value, step.start.rest);
         self.steps.push(KeptStep { start, start_rest, length: step.length, components, coefficients });
         ControlFlow::Continue(())
@@ -176,6 +177,7 @@ mod tests {
         let mut kept = Kept::new();
         let end = integrate(&Circle, &[1.0, 0.0], (0.0, -20.0), &Settings::new(1e-12), &mut kept).unwrap();
         assert_eq!(kept.coefficients() as u64, end.work.steps * 2 * (order_for(1e-12) as u64 + 1));
+        assert_eq!(kept.coefficients() as u64, end.work.kept_coefficients);
         for i in 0..=100 {
             let t = -0.2 * f64::from(i);
             let state = kept.at(t).unwrap();

@@ -10,7 +10,9 @@
 //! - [`integrator`]: the loop over steps, compensated sums, errors as values, observers;
 //! - [`dense`]: states between steps, streamed or kept;
 //! - [`events`]: every root of a function of the state, by isolating the roots of the step's polynomial;
-//! - [`lanes`]: eight integrations beside each other, from the same flows and with the same bits.
+//! - [`lanes`]: eight integrations beside each other, from the same flows and with the same bits;
+//! - [`monitor`]: how far a conserved quantity drifts;
+//! - [`multiplications`]: what the series of a step cost, counted.
 //!
 //! Sources: À. Jorba and M. Zou, *A software package for the numerical integration of ODEs by means of high-order Taylor
 //! methods*, Experimental Mathematics 14 (2005) 99-117. Not known here: any geometry.
@@ -20,4 +22,6 @@ pub mod events;
 pub mod flow;
 pub mod integrator;
 pub mod lanes;
+pub mod monitor;
+pub mod multiplications;
 pub mod step;
