@@ -32,7 +32,7 @@ mod timing;
 
 const REFERENCE: &str = include_str!("peers/reference.json");
 /// What the Taylor engine is asked for; the last is the spacing of the numbers, where rounding alone is left.
-const ASKED: [f64; 7] = [1e-3, 1e-6, 1e-9, 1e-12, 1e-14, 1e-15, f64::EPSILON];
+const ASKED: [f64; 10] = [1e-3, 1e-6, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15, f64::EPSILON];
 /// Starts that are timed together, one at a time; in lanes it is all of them.
 const BLOCK: usize = 40;
 /// Later than every conjugate time.

@@ -184,7 +184,7 @@ def heyoka_rows():
         states_8 = np.ascontiguousarray(states.reshape(count // lanes, lanes, -1).transpose(0, 2, 1))
         parameters_8 = np.ascontiguousarray(parameters.reshape(count // lanes, lanes, -1).transpose(0, 2, 1))
         until = 1.001 * np.array([start["t1_near"] for start in starts]).reshape(-1, lanes)
-        for asked in (1e-6, 1e-9, 1e-12, 1e-14, 1e-15, 2.2e-16):
+        for asked in (1e-6, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, 1e-14, 1e-15, 2.2e-16):
             for options, suffix in (({}, ""), ({"fast_math": True}, ", fast_math")):
                 found = np.zeros(count)
 

@@ -140,7 +140,10 @@ impl<S: Pack> Expansion<S> {
         // believed to reach 30 times as far as it does costs two digits. Of the last but one the exponent 1/7 is rounded up to
         // 5/32 or down to 9/64, of the one before 1/6 to 3/16 or 5/32, so that the radius errs on the small side.
         let scale = half_g * inverse + weight * p[0];
-        let size = [0, 1, 2].map(|back| (target[DEGREE - back].abs() + chi[DEGREE - back].abs()) / scale);
+        let mut size = [S::ZERO; 3];
+        for (back, size) in size.iter_mut().enumerate() {
+            *size = (target[DEGREE - back].abs() + chi[DEGREE - back].abs()) / scale;
+        }
         let roots = [size[1].sqrt().sqrt(), size[2].sqrt()];
         let before = size[1] * roots[0].max(roots[0].sqrt());
         let third = size[2] * roots[1].max(roots[1].sqrt());

@@ -59,6 +59,15 @@ fn first_quadrant<S: Pack>(x: S) -> (S, S) {
     (S::select(upper, cosine, sine), S::select(upper, sine, cosine))
 }
 
+/// One step of Bulirsch's `cel2` for the members that are active. (A function, not a closure: those can't be told to be
+/// compiled with the caller's instructions.)
+#[inline(always)]
+fn advanced<S: Pack>(active: S::Mask, modulus: S, inverse: S, (upper, lower, b): (S, S, S)) -> (S, S, S) {
+    let sum = lower * modulus + b;
+    let new_b = sum + sum;
+    (S::select(active, new_b * inverse + upper, upper), S::select(active, upper, lower), S::select(active, new_b, b))
+}
+
 impl<S: Pack> Landen<S> {
     /// The chain for `0 < m' ≤ 1`.
     ///
@@ -89,15 +98,9 @@ impl<S: Pack> Landen<S> {
             let double = scale + scale;
             let inverse = S::ONE / (double * next);
             let modulus = scale * g;
-            let advance = |upper: &mut S, lower: &mut S, b: &mut S| {
-                let sum = *lower * modulus + *b;
-                let new_b = sum + sum;
-                *b = S::select(active, new_b, *b);
-                *lower = S::select(active, *upper, *lower);
-                *upper = S::select(active, new_b * inverse + *upper, *upper);
-            };
-            advance(&mut cosine_upper, &mut cosine_lower, &mut cosine_b);
-            advance(&mut sine_upper, &mut sine_lower, &mut sine_b);
+            (cosine_upper, cosine_lower, cosine_b) =
+                advanced(active, modulus, inverse, (cosine_upper, cosine_lower, cosine_b));
+            (sine_upper, sine_lower, sine_b) = advanced(active, modulus, inverse, (sine_upper, sine_lower, sine_b));
             scale = S::select(active, double, scale);
             active = active.and((a - g).abs().more(agreement * a));
             if !active.any() {

@@ -413,14 +413,6 @@ fn quarter_bracket<S: Pack>(
 ) -> Bracket<S> {
     let (one, two) = (S::ONE, S::from_f64(2.0));
     let level = turns * S::PI;
-    let at = |n: S| -> (S, S) {
-        let point = extremal.quarter_phase(elliptic, n, turns);
-        match quantity {
-            Quantity::Phase => (point.phase, point.phase_rate),
-            Quantity::Lambda => (point.lambda, point.lambda_rate),
-        }
-    };
-    let choose = |mask: S::Mask, yes: (S, S), no: (S, S)| (S::select(mask, yes.0, no.0), S::select(mask, yes.1, no.1));
     let quarter_lambda = (S::PI + elliptic.excess) / two;
     let (mut first, mut last) = match (quantity, extremal.regime) {
         (Quantity::Phase, Regime::Oscillating) => {
@@ -434,7 +426,7 @@ fn quarter_bracket<S: Pack>(
     let (mut below, mut above) = ((S::ZERO, S::ZERO), (S::ZERO, S::ZERO));
     let mut active = S::Mask::splat(true);
     loop {
-        below = choose(active, at(first), below);
+        below = chosen(active, at_quarter(extremal, elliptic, quantity, first, turns), below);
         active = active.and(below.0.more(S::ZERO)).and(first.more(S::ZERO)).and((first - one).less(first));
         if !active.any() {
             break;
@@ -443,7 +435,7 @@ fn quarter_bracket<S: Pack>(
     }
     active = S::Mask::splat(true);
     for _ in 0..8 {
-        above = choose(active, at(last), above);
+        above = chosen(active, at_quarter(extremal, elliptic, quantity, last, turns), above);
         active = active.and(above.0.more(S::ZERO).not());
         if !active.any() {
             break;
@@ -457,17 +449,33 @@ fn quarter_bracket<S: Pack>(
         if !active.any() {
             break;
         }
-        let value = at(middle);
+        let value = at_quarter(extremal, elliptic, quantity, middle, turns);
         let up = active.and(value.0.more(S::ZERO));
         let down = active.and(value.0.more(S::ZERO).not());
-        (last, above) = (S::select(up, middle, last), choose(up, value, above));
-        (first, below) = (S::select(down, middle, first), choose(down, value, below));
+        (last, above) = (S::select(up, middle, last), chosen(up, value, above));
+        (first, below) = (S::select(down, middle, first), chosen(down, value, below));
     }
     let quarter = elliptic.quarter / extremal.rate;
     let (low, high) = (first * quarter, last * quarter);
     let inside = central.more(low).and(central.less(high));
     let cubic = low + quarter * hermite_root(below.0, above.0, below.1 * quarter, above.1 * quarter);
     Bracket { low, high, guess: S::select(inside, central, cubic) }
+}
+
+/// The quantity less its level, and its rate, after `n` quarter turns.
+#[inline(always)]
+fn at_quarter<S: Pack>(extremal: &Extremal<S>, elliptic: &Elliptic<S>, quantity: Quantity, n: S, turns: S) -> (S, S) {
+    let point = extremal.quarter_phase(elliptic, n, turns);
+    match quantity {
+        Quantity::Phase => (point.phase, point.phase_rate),
+        Quantity::Lambda => (point.lambda, point.lambda_rate),
+    }
+}
+
+/// Of two pairs, member by member.
+#[inline(always)]
+fn chosen<S: Pack>(mask: S::Mask, yes: (S, S), no: (S, S)) -> (S, S) {
+    (S::select(mask, yes.0, no.0), S::select(mask, yes.1, no.1))
 }
 
 /// Where in [0, 1] the cubic with these end values (of opposite sign) and end slopes vanishes, roughly.

@@ -46,22 +46,32 @@ fn atan_of_positive<P: Pack<Scalar = f64>>(q: P) -> P {
     let c = P::from_f64;
     let (one, two) = (P::ONE, c(2.0));
     let plain = q.less(c(0.4375));
-    let at_half = q.less(c(0.6875));
-    let at_one = q.less(c(1.1875));
-    let at_three_halves = q.less(c(2.4375));
-    let choose = |values: [P; 4]| {
-        let far = P::select(at_three_halves, values[2], values[3]);
-        P::select(at_half, values[0], P::select(at_one, values[1], far))
-    };
-    let numerator = choose([two * q - one, q - one, q - c(1.5), -one]);
-    let denominator = choose([two + q, q + one, one + c(1.5) * q, q]);
+    let below = [q.less(c(0.6875)), q.less(c(1.1875)), q.less(c(2.4375))];
+    let numerator = chosen(below, [two * q - one, q - one, q - c(1.5), -one]);
+    let denominator = chosen(below, [two + q, q + one, one + c(1.5) * q, q]);
     let x = P::select(plain, q, numerator / denominator);
-    let (z, a) = (x * x, COEFFICIENTS.map(c));
+    let z = x * x;
+    let mut a = [P::ZERO; 11];
+    for i in 0..11 {
+        a[i] = c(COEFFICIENTS[i]);
+    }
     let w = z * z;
     let s1 = z * (a[0] + w * (a[2] + w * (a[4] + w * (a[6] + w * (a[8] + w * a[10])))));
     let s2 = w * (a[1] + w * (a[3] + w * (a[5] + w * (a[7] + w * a[9]))));
     let product = x * (s1 + s2);
-    P::select(plain, x - product, choose(HIGH.map(c)) - (product - choose(LOW.map(c)) - x))
+    let (mut high, mut low) = ([P::ZERO; 4], [P::ZERO; 4]);
+    for i in 0..4 {
+        (high[i], low[i]) = (c(HIGH[i]), c(LOW[i]));
+    }
+    P::select(plain, x - product, chosen(below, high) - (product - chosen(below, low) - x))
+}
+
+/// The first value whose mask is true; the last where none is. (A function, not a closure: those can't be told to be
+/// compiled with the caller's instructions.)
+#[inline(always)]
+fn chosen<P: Pack>(below: [P::Mask; 3], values: [P; 4]) -> P {
+    let far = P::select(below[2], values[2], values[3]);
+    P::select(below[0], values[0], P::select(below[1], values[1], far))
 }
 
 /// The angle in `(−π, π]` of the point `(x, y)`: the bits of [`Real::atan2`] for each member.
