@@ -60,8 +60,10 @@ fn the_commands_of_the_readme_run() {
     assert_eq!(commands[0], "figures", "the first is the main job");
     for command in &commands {
         let ran = workspace.line(command);
+        // The scene made on the way has values that values.toml does not have yet: a dry run says so by its exit code.
+        let well = ran.code == 0 || ran.code == 6 && command.contains("--dry-run");
         assert!(
-            ran.code == 0 && !ran.err.contains("panicked"),
+            well && !ran.err.contains("panicked"),
             "polhode {command}: exit {}\n{}\n{}",
             ran.code,
             ran.out,
