@@ -158,8 +158,13 @@ impl LaneWork for Operations {
     #[inline(always)]
     fn run<P: Pack<Scalar = f64>>(self) -> Vec<u64> {
         let mut bits = Vec::new();
-        for pair in self.0.windows(P::WIDTH + 1) {
+        // A multiple of eight pairs: the same ones in the same order for every width.
+        let pairs = (self.0.len() - 1) / 8 * 8;
+        for first in (0..pairs).step_by(P::WIDTH) {
+            let pair = &self.0[first..];
             let (x, y) = (P::from_lanes(|i| pair[i]), P::from_lanes(|i| pair[i + 1]));
+            let lanes: Vec<bool> = (0..P::WIDTH).map(|lane| x.less(y).lane(lane)).collect();
+            assert_eq!((x.less(y).any(), x.less(y).all()), (lanes.contains(&true), !lanes.contains(&false)));
             let masks =
                 [x.less(y), x.at_most(y), x.equals(y), x.more(y).or(x.equals(y)), x.less(y).and(y.less(P::ONE)).not()];
             let chosen = masks.map(|mask| P::select(mask, x, y));
@@ -177,7 +182,6 @@ impl LaneWork for Operations {
                     bits.push(if value.is_nan() { 0x7ff8 << 48 } else { value.to_bits() });
                 }
                 bits.extend(masks.map(|mask| u64::from(mask.lane(lane))));
-                bits.push(u64::from(masks[0].any()) + 2 * u64::from(masks[0].all()));
             }
         }
         bits

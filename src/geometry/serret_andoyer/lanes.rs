@@ -17,7 +17,7 @@ use super::start::{Start, StartError};
 use crate::numerics::lanes::dispatch::{Instructions, LaneWork, chosen, dispatch_with};
 use crate::numerics::pack::{Mask, Pack};
 
-/// Members of a pack.
+/// Members of the widest pack.
 const WIDTH: usize = 8;
 
 /// Why a start has no conjugate point.
@@ -87,7 +87,7 @@ impl Wanted for ConjugatePoint {
     #[inline(always)]
     fn of_block<P: Pack<Scalar = f64>>(block: &Block, mut give: impl FnMut(usize, Result<Self, NoConjugatePoint>)) {
         let found = equation::place(&block.oscillating::<P>(), &block.chart::<P>());
-        for i in 0..WIDTH {
+        for i in 0..P::WIDTH {
             let point = steps(&found.time, i).map(|iterations| Self {
                 t1: found.time.t1.lane(i),
                 x: found.x.lane(i),
@@ -108,7 +108,7 @@ impl Wanted for ConjugateTime {
     #[inline(always)]
     fn of_block<P: Pack<Scalar = f64>>(block: &Block, mut give: impl FnMut(usize, Result<Self, NoConjugatePoint>)) {
         let found = equation::time(&block.oscillating::<P>());
-        for i in 0..WIDTH {
+        for i in 0..P::WIDTH {
             let time = steps(&found, i).map(|iterations| Self {
                 t1: found.t1.lane(i),
                 lower_bound: found.lower_bound.lane(i),
@@ -239,7 +239,7 @@ impl<'a, F: Fn(usize) -> (&'a Metric, Start), T: Wanted> LaneWork for Batch<F, T
                 }
                 Err(reason) => answers[i] = Err(reason),
             }
-            if waiting == WIDTH || (i + 1 == self.count && waiting > 0) {
+            if waiting == P::WIDTH || (i + 1 == self.count && waiting > 0) {
                 block.pad(waiting);
                 T::of_block::<P>(&block, |j, answer| {
                     if j < waiting {

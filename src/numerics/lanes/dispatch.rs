@@ -8,6 +8,7 @@
 
 #[cfg(target_arch = "x86_64")]
 use super::avx512::Avx512;
+#[cfg(target_arch = "x86_64")]
 use super::portable::Portable;
 use crate::numerics::pack::Pack;
 use std::cell::Cell;
@@ -19,9 +20,10 @@ pub const VARIABLE: &str = "POLHODE_SIMD";
 /// A set of instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Instructions {
-    /// What every processor of the platform has.
+    /// What every processor of the platform has: one at a time. (Eight lanes of two in a register gain up to a factor of two
+    /// there, but cost every build a minute.)
     Portable,
-    /// AVX2, as the compiler uses it.
+    /// AVX2, as the compiler uses it for eight lanes.
     Avx2,
     /// AVX-512 (F, DQ, VL, BW, CD), eight lanes in a register.
     Avx512,
@@ -130,17 +132,17 @@ pub fn with_instructions<T>(instructions: Instructions, function: impl FnOnce() 
 pub trait LaneWork {
     /// What it returns.
     type Output;
-    /// Does it with packs of eight `f64`. To be marked `#[inline(always)]`, as everything heavy below it: what is not
+    /// Does it with packs of `f64`, eight or one. To be marked `#[inline(always)]`, as everything heavy below it: what is not
     /// inlined is compiled without the wider instructions.
     fn run<P: Pack<Scalar = f64>>(self) -> Self::Output;
 }
 
-/// Does work in eight lanes, with the instructions [`chosen`].
+/// Does work with the instructions [`chosen`].
 pub fn dispatch<W: LaneWork>(work: W) -> W::Output {
     dispatch_with(chosen(), work)
 }
 
-/// Does work in eight lanes with given instructions; the widest narrower ones that there are, if the processor lacks them.
+/// Does work with given instructions; the widest narrower ones that there are, if the processor lacks them.
 pub fn dispatch_with<W: LaneWork>(instructions: Instructions, work: W) -> W::Output {
     #[cfg(target_arch = "x86_64")]
     {
@@ -153,7 +155,7 @@ pub fn dispatch_with<W: LaneWork>(instructions: Instructions, work: W) -> W::Out
             return unsafe { with_avx2(work) };
         }
     }
-    work.run::<Portable>()
+    work.run::<f64>()
 }
 
 #[cfg(target_arch = "x86_64")]

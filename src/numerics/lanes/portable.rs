@@ -1,4 +1,6 @@
-//! Eight lanes in plain Rust: what every processor has, and what the compiler makes AVX2 of.
+//! Eight lanes in plain Rust, which the compiler makes AVX2 of ([`super::dispatch`]).
+
+#![cfg(target_arch = "x86_64")]
 
 use crate::numerics::pack::{Mask, Pack};
 use crate::numerics::taylor::flow::Algebra;
