@@ -4,6 +4,7 @@ pub mod conjugate_point_versus_k;
 pub mod conjugate_point_versus_k_by_integration;
 pub mod cost_of_effects;
 pub mod counted;
+pub mod hard_cases;
 pub mod point;
 pub mod product;
 pub mod quantities;

@@ -1,0 +1,3 @@
+//! Hard cases: families of starts that run into a limit, each answered by a naive formulation and by ours, beside the truth.
+
+pub mod family;
