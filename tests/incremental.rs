@@ -206,7 +206,7 @@ fn with_room_edited(kind: &Kind, room: &str) -> Result<Arc<CodeListing>, code::U
     let listing = code::listing(kind)?;
     let edited = listing.lines.iter().map(|(name, digest)| {
         let is_in_room = name.starts_with(&format!("{room}/"));
-        let digest = if is_in_room { with_one_more_token(name) } else { digest.clone() };
+        let digest = if is_in_room { with_one_more_token(name).into() } else { digest.clone() };
         (name.clone(), digest)
     });
     Ok(Arc::new(CodeListing::new(edited)))

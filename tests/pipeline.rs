@@ -5,7 +5,7 @@
 
 mod toy;
 
-use polhode::contract::code::{CodeListing, listing};
+use polhode::contract::code::{CodeLine, CodeListing, listing};
 use polhode::contract::digest::Digest;
 use polhode::contract::node::{Address, Node};
 use polhode::contract::plan::{Export, Plan};
@@ -391,9 +391,9 @@ fn a_change_of_code_is_named_and_reruns_only_its_kinds() {
     bench.counts.take();
     let edited = |kind: &polhode::contract::node::Kind| {
         let lines = listing(kind)?.lines.clone();
-        let edit = |(name, value): (String, String)| {
+        let edit = |(name, value): CodeLine| {
             let is_edited = name == "numerics/real.rs";
-            (name, if is_edited { Digest::of(b"edited").to_string() } else { value })
+            (name, if is_edited { Digest::of(b"edited").to_string().into() } else { value })
         };
         Ok(Arc::new(CodeListing::new(lines.into_iter().map(edit))))
     };

@@ -9,6 +9,7 @@
 use super::digest::Digest;
 use super::node::Kind;
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::{Arc, LazyLock, Mutex};
 
@@ -56,11 +57,15 @@ const MACHINERY: &[&str] = &[
     "contract/work.rs",
 ];
 
+/// A line of a listing: `("numerics/real.rs", digest)`, `("crate libm", version and checksum)`, `("compiler", version)`. This program's
+/// own lines are borrowed from its tables: every command makes the listings of all kinds before anything else.
+pub type CodeLine = (Cow<'static, str>, Cow<'static, str>);
+
 /// The code that a kind depends on, line by line.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CodeListing {
-    /// `("numerics/real.rs", digest)`, `("crate libm", version and checksum)`, `("compiler", version)`; ordered.
-    pub lines: Vec<(String, String)>,
+    /// The lines, ordered.
+    pub lines: Vec<CodeLine>,
     /// The digest of [`Self::text`].
     pub digest: Digest,
 }
@@ -78,8 +83,9 @@ pub struct CodeChange {
 
 impl CodeListing {
     /// A listing of these lines.
-    pub fn new(lines: impl IntoIterator<Item = (String, String)>) -> Self {
+    pub fn new(lines: impl IntoIterator<Item = CodeLine>) -> Self {
         let mut lines: Vec<_> = lines.into_iter().collect();
+        // Stable on purpose: the lines come as a few sorted runs, which it merges.
         lines.sort();
         let digest = Digest::of(text_of(&lines).as_bytes());
         Self { lines, digest }
@@ -93,23 +99,30 @@ impl CodeListing {
     /// Reads the text form.
     pub fn parse(text: &str) -> Option<Self> {
         let lines: Option<Vec<_>> = text.lines().map(|line| line.split_once('\t')).collect();
-        Some(Self::new(lines?.into_iter().map(|(name, value)| (name.to_owned(), value.to_owned()))))
+        Some(Self::new(lines?.into_iter().map(|(name, value)| (name.to_owned().into(), value.to_owned().into()))))
     }
 
     /// What differs in a newer listing.
     pub fn changes(&self, newer: &Self) -> Vec<CodeChange> {
         let lines = |listing: &Self| listing.lines.iter().cloned().collect::<BTreeMap<_, _>>();
         let (old, new) = (lines(self), lines(newer));
-        let names: BTreeSet<&String> = old.keys().chain(new.keys()).collect();
+        let names: BTreeSet<&Cow<'static, str>> = old.keys().chain(new.keys()).collect();
         let differing = names.into_iter().filter(|name| old.get(*name) != new.get(*name));
+        let value = |listing: &BTreeMap<_, Cow<'static, str>>, name| listing.get(name).map(|value| value.to_string());
         differing
-            .map(|name| CodeChange { name: name.clone(), old: old.get(name).cloned(), new: new.get(name).cloned() })
+            .map(|name| CodeChange { name: name.to_string(), old: value(&old, name), new: value(&new, name) })
             .collect()
     }
 }
 
-fn text_of(lines: &[(String, String)]) -> String {
-    lines.iter().map(|(name, value)| format!("{name}\t{value}\n")).collect()
+fn text_of(lines: &[CodeLine]) -> String {
+    let mut text = String::with_capacity(lines.iter().map(|(name, value)| name.len() + value.len() + 2).sum());
+    for (name, value) in lines {
+        for part in [name, "\t", value, "\n"] {
+            text.push_str(part);
+        }
+    }
+    text
 }
 
 /// An entry of [`Kind::code`] that names no file.
@@ -134,9 +147,9 @@ pub fn listing(kind: &Kind) -> Result<Arc<CodeListing>, UnknownCode> {
         return Ok(Arc::clone(listing));
     }
     let files = files_of(kind)?;
-    let mut lines: Vec<_> = files.iter().map(|file| (file.path.to_owned(), file.digest.to_owned())).collect();
-    lines.extend(crates_of(&files).into_iter().map(|(name, version)| (format!("crate {name}"), version)));
-    lines.push(("compiler".to_owned(), COMPILER.to_owned()));
+    let mut lines: Vec<CodeLine> = files.iter().map(|file| (file.path.into(), file.digest.into())).collect();
+    lines.extend(crates_of(&files).into_iter().map(|(name, version)| (name.into(), version)));
+    lines.push(("compiler".into(), COMPILER.into()));
     let listing = Arc::new(CodeListing::new(lines));
     known().insert((kind.name, kind.code), Arc::clone(&listing));
     Ok(listing)
@@ -154,22 +167,24 @@ fn files_of(kind: &Kind) -> Result<Vec<&'static FileCode>, UnknownCode> {
     Ok(FILES.iter().filter(|file| kind.code.iter().any(|entry| covers(entry, file.path))).collect())
 }
 
-/// The external crates that files name, and all that these depend on; versions of one crate on one line.
-fn crates_of(files: &[&FileCode]) -> BTreeMap<String, String> {
-    let mut reached = BTreeSet::new();
+/// The external crates that files name, and all that these depend on, as lines: `crate libm`, version; versions of one crate on one line.
+fn crates_of(files: &[&FileCode]) -> BTreeMap<&'static str, Cow<'static, str>> {
+    static LINES: LazyLock<Vec<String>> =
+        LazyLock::new(|| generated::CRATES.iter().map(|found| format!("crate {}", found.name)).collect());
+    let mut reached = vec![false; generated::CRATES.len()];
     let mut open: Vec<usize> = files.iter().flat_map(|file| file.crates.iter().copied()).collect();
     while let Some(index) = open.pop() {
-        if let Some(found) = generated::CRATES.get(index)
-            && reached.insert(index)
+        if let (Some(found), Some(reached)) = (generated::CRATES.get(index), reached.get_mut(index))
+            && !std::mem::replace(reached, true)
         {
             open.extend(found.dependencies);
         }
     }
-    let mut versions: BTreeMap<String, String> = BTreeMap::new();
-    for found in reached.into_iter().filter_map(|index| generated::CRATES.get(index)) {
-        let entry = versions.entry(found.name.to_owned()).or_default();
-        let gap = if entry.is_empty() { "" } else { ", " };
-        entry.push_str(&format!("{gap}{}", found.version));
+    let mut versions: BTreeMap<&'static str, Cow<'static, str>> = BTreeMap::new();
+    let all = LINES.iter().zip(generated::CRATES).zip(reached);
+    for ((line, found), _) in all.filter(|(_, is_reached)| *is_reached) {
+        let entry = versions.entry(line).or_default();
+        *entry = if entry.is_empty() { found.version.into() } else { format!("{entry}, {}", found.version).into() };
     }
     versions
 }
@@ -235,7 +250,7 @@ mod tests {
     #[test]
     fn a_listing_names_files_crates_and_compiler() {
         let listing = listing(&kind(&["numerics"])).expect("known");
-        let names: Vec<&str> = listing.lines.iter().map(|(name, _)| name.as_str()).collect();
+        let names: Vec<&str> = listing.lines.iter().map(|(name, _)| name.as_ref()).collect();
         for name in ["numerics/real.rs", "numerics/elliptic/carlson.rs", "crate libm", "compiler"] {
             assert!(names.contains(&name), "{name} in {names:?}");
         }
@@ -249,7 +264,7 @@ mod tests {
     #[test]
     fn crates_are_closed_over_their_dependencies() {
         let listing = listing(&kind(&["contract/node.rs"])).expect("known");
-        let names: Vec<&str> = listing.lines.iter().map(|(name, _)| name.as_str()).collect();
+        let names: Vec<&str> = listing.lines.iter().map(|(name, _)| name.as_ref()).collect();
         assert!(names.contains(&"crate serde") && names.contains(&"crate serde_core"), "{names:?}");
     }
 

@@ -194,7 +194,7 @@ impl<'de> Deserialize<'de> for StartMomenta {
 }
 
 /// Most values of one sweep.
-const MOST_VALUES: usize = 400;
+const MOST_VALUES: usize = 10_000;
 /// Smallest and largest k. Below 0.1 momenta below `e^(−π/k)` matter, and the second routes take minutes in double-double.
 const K: (f64, f64) = (0.1, 3.0);
 
