@@ -12,6 +12,7 @@ pub mod rotation_group;
 pub mod scene;
 pub mod serret_andoyer;
 pub mod spin;
+pub mod statements;
 pub mod switch_points;
 pub mod switch_points_by_integration;
 pub mod theta_turning_points;

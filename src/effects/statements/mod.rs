@@ -1,0 +1,3 @@
+//! The article's statements, each with the check that decides it.
+
+pub mod statement;
