@@ -7,6 +7,9 @@
 //! | `POLHODE_KILLS` | random SIGKILLs of the built binary on a small graph | 25 |
 //! | `POLHODE_ARTICLE_KILLS` | the same on the experiments of this repository (`--ignored`) | 12 |
 //! | `POLHODE_SEED` | the seed of their moments | 1 |
+//!
+//! Five hundred, and twelve on the article: `just long`, or
+//! `POLHODE_KILLS=500 cargo test --test faults random_kills -- --include-ignored --nocapture --test-threads 1`.
 
 #![expect(clippy::expect_used, clippy::print_stdout, reason = "helpers of tests; reports")]
 

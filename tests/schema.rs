@@ -218,6 +218,8 @@ fn what_is_wrong_in_form_is_refused_by_both() {
         json!({}),
         json!([[1]]),
         json!([1.5, "x"]),
+        json!({ "lin": {} }),
+        json!({ "geodesics": {} }),
         json!({ "from": 1.0 }),
         json!({ "from": 1.0, "to": 2.0, "count": "3" }),
         json!({ "from": 1.0, "to": 2.0, "count": 3, "spacing": "cubic" }),

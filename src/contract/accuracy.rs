@@ -1,6 +1,7 @@
 //! The accuracy level that a config or the command line asks for. It enters the parameters of nodes, and so their key.
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::Unexpected;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::borrow::Cow;
 use std::fmt;
@@ -86,10 +87,10 @@ impl<'de> Deserialize<'de> for Accuracy {
                 f.write_str("\"draft\", \"article\" or a relative error from 1e-14 to 0.1")
             }
             fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Accuracy, E> {
-                text.parse().map_err(E::custom)
+                text.parse().map_err(|_| E::invalid_value(Unexpected::Str(text), &self))
             }
             fn visit_f64<E: serde::de::Error>(self, x: f64) -> Result<Accuracy, E> {
-                format!("{x:e}").parse().map_err(E::custom)
+                format!("{x:e}").parse().map_err(|_| E::invalid_value(Unexpected::Float(x), &self))
             }
         }
         deserializer.deserialize_any(Visitor)

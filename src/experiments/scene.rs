@@ -188,7 +188,7 @@ impl<'de> Deserialize<'de> for StartMomenta {
                         let spacing = spacing.unwrap_or_default();
                         Ok(StartMomenta::Swept(Sweep::Range(Range { from, to, count, spacing })))
                     }
-                    _ => Err(de::Error::custom("`step` alone (as many as the curves need), or `count` with `spacing`")),
+                    _ => Err(de::Error::invalid_value(de::Unexpected::Map, &self)),
                 }
             }
         }
