@@ -2,7 +2,7 @@
 
 use super::error::{ConfigError, ConfigProblem};
 use super::explain::{explain, written};
-use super::place::{Place, parent, places};
+use super::place::{Place, Shape, parent, places};
 use super::validate::{Invalid, Validate};
 use crate::contract::digest::{Digest, Framed};
 use crate::contract::manifest::{self, Line};
@@ -187,23 +187,20 @@ fn shapes<P: Serialize>(file: &str, text: &str, places: &[Place], params: &P) ->
     let mut meant = HashMap::new();
     walk(&value, String::new(), &mut meant);
     for place in places {
-        // A header's text begins with a bracket too, before its key.
-        let has_own_text = place.key.start <= place.value.start;
-        let begin = text.get(place.value.clone()).and_then(|written| written.chars().next()).filter(|_| has_own_text);
-        let accepted = match (begin, meant.get(&place.path)) {
-            (Some('['), Some(toml::Value::Table(_))) => "a table: { key = … }",
-            (Some('{'), Some(toml::Value::Array(_))) => "a list: [ … ]",
-            (Some('[' | '{'), Some(toml::Value::String(_))) => "a text in quotes",
+        let accepted = match (place.shape, meant.get(&place.path)) {
+            (Shape::List, Some(toml::Value::Table(_))) => "a table: { key = … }",
+            (Shape::Table, Some(toml::Value::Array(_))) => "a list: [ … ]",
+            (Shape::List | Shape::Table, Some(toml::Value::String(_))) => "a text in quotes",
             _ => continue,
         };
         let problem = ConfigProblem {
             key: place.path.clone(),
-            found: written(text, &place.value),
+            found: written(text, &place.shown(text)),
             accepted: accepted.to_owned(),
             message: format!("wrong type of `{}`", place.path),
             ..ConfigProblem::default()
         };
-        return Err(ConfigError::at(file, text, place.value.clone(), problem));
+        return Err(ConfigError::at(file, text, place.shown(text), problem));
     }
     Ok(())
 }
