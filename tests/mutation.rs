@@ -7,7 +7,7 @@
 //! | `POLHODE_MUTATION_SECONDS` | time, at least | 0 |
 //! | `POLHODE_SEED` | the seed | 1 |
 
-#![expect(clippy::expect_used, clippy::print_stdout, reason = "helpers of tests; a report")]
+#![expect(clippy::expect_used, reason = "helpers of tests")]
 
 mod folder;
 
@@ -159,7 +159,7 @@ fn mutated(text: &str, random: &mut Random) -> String {
                 let end = boundary(&text, (at + 1 + random.below(6)).min(text.len()));
                 text.replace_range(at.min(end)..end.max(at), "");
             }
-            2 | 3 | 4 => {
+            2..=4 => {
                 let found = numbers(&text);
                 if !found.is_empty() {
                     let (start, end) = found[random.below(found.len())];

@@ -4,7 +4,7 @@
 //!
 //! Takes some minutes, so it is run by hand: `cargo test --test rebuild -- --ignored --nocapture`. Dependencies are linked from this build.
 
-#![expect(clippy::expect_used, clippy::panic, clippy::print_stdout, reason = "helpers of tests; a report")]
+#![expect(clippy::expect_used, clippy::panic, reason = "helpers of tests")]
 
 mod support;
 #[path = "../src/contract/tokens.rs"]
