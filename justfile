@@ -24,6 +24,13 @@ why TARGET:
 test *ARGS:
     cargo test {{ARGS}}
 
+# The long tests: 500 kills on a small graph and 12 on the article's, ten minutes of mutated configs, one real rebuild.
+[group('develop')]
+long:
+    POLHODE_KILLS=500 cargo test --test faults random_kills -- --include-ignored --nocapture --test-threads 1
+    POLHODE_MUTATION_SECONDS=600 cargo test --test mutation -- --nocapture
+    cargo test --test rebuild -- --ignored --nocapture
+
 # Accept the numbers, verdicts and work of the present build as the golden ones; read the diff before committing it.
 [group('develop')]
 bless:

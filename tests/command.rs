@@ -179,7 +179,7 @@ fn the_examples_of_help_run() {
         .skip(1)
         .map_while(|line| line.strip_prefix("  ").map(|line| line.split(' ').next().unwrap_or_default().to_owned()))
         .collect();
-    for verb in ["figures", "check", "why", "list", "graph", "show", "point", "new"] {
+    for verb in ["figures", "check", "why", "list", "graph", "show", "point", "new", "schema"] {
         assert!(verbs.iter().any(|known| known == verb), "{verb} in {verbs:?}");
     }
     let mut all = examples(&help);
@@ -471,7 +471,9 @@ fn show_prints_tables() {
 fn graphs_in_all_forms_hold_all_nodes() {
     let workspace = computed();
     let nodes = workspace.figures().all_nodes();
-    for (form, begin) in [("text", "remark_3_25/"), ("dot", "digraph"), ("mermaid", "flowchart"), ("json", "{")] {
+    let forms =
+        [("text", "remark_3_25/"), ("svg", "<svg "), ("dot", "digraph"), ("mermaid", "flowchart"), ("json", "{")];
+    for (form, begin) in forms {
         let graph = workspace.line(&format!("graph --form {form}")).ends(0).out;
         assert!(graph.starts_with(begin), "{form}: {graph}");
         for node in &nodes {
@@ -481,6 +483,32 @@ fn graphs_in_all_forms_hold_all_nodes() {
     let json = workspace.line("graph --json").ends(0).json();
     assert_eq!(json["nodes"].as_array().map(Vec::len), Some(nodes.len()));
     assert_eq!(workspace.line("graph").ends(0).out, workspace.line("graph --form text").ends(0).out);
+}
+
+/// All experiments: few boxes, every node and file named once, lengths that are whole numbers, the same bytes again.
+#[test]
+fn the_picture_of_the_whole_graph_is_small() {
+    let workspace = Workspace::with(&support::all_experiments());
+    let svg = workspace.line("graph --format svg").ends(0).out;
+    let json = workspace.line("graph --json").ends(0).json();
+    let list = |name: &str, key: &str| -> Vec<String> {
+        let items = json[name].as_array().expect("a list").iter();
+        items.map(|item| item[key].as_str().expect("text").to_owned()).collect()
+    };
+    let (nodes, files) = (list("nodes", "address"), list("exports", "path"));
+    let titles: Vec<&str> = svg.lines().map(|line| line.trim_end_matches("</title>")).collect();
+    for name in nodes.iter().chain(&files.iter().map(|file| format!("→ {file}")).collect::<Vec<_>>()) {
+        let named = |line: &&&str| line.split("</title>").next().is_some_and(|line| line == name);
+        assert_eq!(titles.iter().filter(named).count(), 1, "{name}");
+    }
+    let boxes = svg.matches(" rx=\"3\"").count();
+    assert!(nodes.len() > 150 && boxes < 100, "{} nodes in {boxes} boxes", nodes.len());
+    let drawn = svg.split("</style>").nth(1).expect("drawn");
+    let lengths = ["x=\"", "y=\"", "width=\"", "height=\"", "d=\"M"].map(|begin| drawn.split(begin).skip(1));
+    for length in lengths.into_iter().flatten() {
+        assert!(!length.split('"').next().expect("ends").contains('.'), "{length}");
+    }
+    assert_eq!(workspace.line("graph --form svg").ends(0).out, svg);
 }
 
 // Targets and folders ---------------------------------------------------------------------------------------------------

@@ -7,6 +7,9 @@
 //! | `POLHODE_KILLS` | random SIGKILLs of the built binary on a small graph | 25 |
 //! | `POLHODE_ARTICLE_KILLS` | the same on the experiments of this repository (`--ignored`) | 12 |
 //! | `POLHODE_SEED` | the seed of their moments | 1 |
+//!
+//! Five hundred, and twelve on the article: `just long`, or
+//! `POLHODE_KILLS=500 cargo test --test faults random_kills -- --include-ignored --nocapture --test-threads 1`.
 
 #![expect(clippy::expect_used, clippy::print_stdout, reason = "helpers of tests; reports")]
 
@@ -540,7 +543,7 @@ fn random_kills_on_a_small_graph() {
         assert_eq!(folder.run(&["figures"]).code, Some(0));
         (begun.elapsed(), folder)
     };
-    let (duration, undisturbed) = timed(&configs);
+    let (undisturbed_duration, undisturbed) = timed(&configs);
     let (_, undisturbed_edit) = timed(&edited);
     let edit_duration = {
         let folder = timed(&configs).1;
@@ -550,14 +553,24 @@ fn random_kills_on_a_small_graph() {
         begun.elapsed()
     };
     let mut matrix = Matrix::default();
-    for round in 0..kills {
-        let is_edit = round % 3 == 2;
+    let (mut duration, mut edit_duration) = (undisturbed_duration, edit_duration);
+    let (mut killed, mut round) = (0, 0);
+    while killed < kills {
+        round += 1;
+        let is_edit = round % 3 == 0;
         let folder = if is_edit { timed(&configs).1 } else { Folder::with(&configs) };
         if is_edit {
             folder.write("a", &folder::config(41));
         }
         let delay = random.below(if is_edit { edit_duration } else { duration });
         let state = kill_after(&folder, delay);
+        // A run that had ended was not killed: earlier moments from then on.
+        if state == "had ended" {
+            let duration = if is_edit { &mut edit_duration } else { &mut duration };
+            *duration = *duration * 9 / 10;
+        } else {
+            killed += 1;
+        }
         let next = folder.run(&["figures"]);
         let expected = if is_edit { &undisturbed_edit } else { &undisturbed };
         let is_same = if is_edit {
@@ -571,7 +584,7 @@ fn random_kills_on_a_small_graph() {
             .and_then(|()| check(folder.files(".polhode/v1/tmp").is_empty(), || "leftovers".to_owned()));
         matrix.case(if is_edit { "edit" } else { "empty store" }, state, &format!("{delay:?}"), outcome);
     }
-    println!("an undisturbed run took {duration:?}");
+    println!("an undisturbed run took {undisturbed_duration:?}; {killed} runs were killed");
     matrix.report("random kills", usize::try_from(kills).expect("a number"));
 }
 
@@ -594,16 +607,22 @@ fn random_kills_on_the_articles_graph() {
     assert_eq!(undisturbed.run(&["figures"]).code, Some(0));
     let duration = begun.elapsed();
     let mut matrix = Matrix::default();
-    for _ in 0..kills {
+    let (mut killed, mut latest) = (0, duration);
+    while killed < kills {
         let folder = article();
-        let delay = random.below(duration);
+        let delay = random.below(latest);
         let state = kill_after(&folder, delay);
+        if state == "had ended" {
+            latest = latest * 9 / 10;
+        } else {
+            killed += 1;
+        }
         let next = folder.run(&["figures"]);
         let outcome = check(next.code == Some(0), || next.err.clone())
             .and_then(|()| check(folder.results() == undisturbed.results(), || "bytes differ".to_owned()));
         matrix.case("empty store", state, &format!("{delay:?}"), outcome);
     }
-    println!("an undisturbed run took {duration:?}");
+    println!("an undisturbed run took {duration:?}; {killed} runs were killed");
     matrix.report("random kills on the article", usize::try_from(kills).expect("a number"));
 }
 

@@ -243,6 +243,28 @@ fn what_is_no_code_does_not_count() {
     assert!(seen > 100, "{seen} files");
 }
 
+/// Every room edited, file by file: stale are exactly the kinds that declare it or a file of it.
+#[test]
+fn a_change_to_a_room_makes_stale_the_kinds_that_declare_it() {
+    let workspace = Workspace::with(&all_experiments());
+    let session = session(&workspace);
+    let kinds: BTreeMap<&str, &Kind> =
+        session.graph.nodes.iter().map(|placed| placed.node.compute.kind()).map(|kind| (kind.name, kind)).collect();
+    let rooms: BTreeSet<String> = files(&repository().join("src"))
+        .into_keys()
+        .filter_map(|path| path.split_once('/').map(|(room, _)| room.to_owned()))
+        .collect();
+    assert!(rooms.len() >= 10 && kinds.len() >= 50, "{rooms:?}, {} kinds", kinds.len());
+    for room in &rooms {
+        for kind in kinds.values() {
+            let before = code::listing(kind).expect("code that exists").digest;
+            let after = with_room_edited(kind, room).expect("code that exists").digest;
+            let is_declared = kind.code.iter().any(|code| code.split('/').next() == Some(room));
+            assert_eq!(before != after, is_declared, "{} and {room}: it declares {:?}", kind.name, kind.code);
+        }
+    }
+}
+
 /// A change to every file of `src/plot`: the pictures run, and only they, for every experiment there is. What they draw is the same, so
 /// no output changes. The code that the program runs is the real one; its fingerprints are those of edited copies.
 #[test]

@@ -53,6 +53,8 @@ pub enum Verb {
     Gc(GcArguments),
     /// Past runs: when, what ran, how long it took
     Log(LogArguments),
+    /// Print the JSON schema of the configs, for editors
+    Schema(SchemaArguments),
     /// Print the completions of a shell
     Completions(CompletionsArguments),
 }
@@ -184,6 +186,8 @@ pub enum GraphForm {
     /// Indented text
     #[default]
     Text,
+    /// A picture
+    Svg,
     /// Graphviz
     Dot,
     /// Mermaid
@@ -196,7 +200,8 @@ pub enum GraphForm {
 #[derive(Args, Debug)]
 #[command(before_help = "Examples:
   polhode graph fig7
-  polhode graph --form dot | dot -Tsvg > graph.svg")]
+  polhode graph --form svg > graph.svg      a picture; nodes that differ in axis values only are one box
+  polhode graph fig7 --form dot | dot -Tpdf > fig7.pdf")]
 pub struct GraphArguments {
     /// Experiments; all where none is given
     #[arg(value_name = "TARGET")]
@@ -205,7 +210,7 @@ pub struct GraphArguments {
     #[command(flatten)]
     pub place: PlaceArguments,
     /// The form
-    #[arg(long, value_enum, default_value_t)]
+    #[arg(long, visible_alias = "format", value_enum, default_value_t)]
     pub form: GraphForm,
     /// The same as --form json
     #[arg(long)]
@@ -385,6 +390,22 @@ pub struct LogArguments {
     /// Machine-readable output on stdout
     #[arg(long)]
     pub json: bool,
+}
+
+/// Options of `schema`.
+#[derive(Args, Debug)]
+#[command(before_help = "Examples:
+  polhode schema > polhode.schema.json          the configs of all kinds
+  polhode schema scene > scene.schema.json      of one kind: an editor's messages are more to the point
+
+Editors with TOML support (taplo, Even Better TOML) check and complete a config that begins with
+  #:schema ../scene.schema.json
+What the schema can't say (A < B < C, say) is refused by polhode when it reads the config.")]
+pub struct SchemaArguments {
+    /// The kind of the configs: scene, fig7 …; all where none is given
+    #[arg(value_name = "KIND", value_parser = clap::builder::PossibleValuesParser::new(
+        crate::experiments::ALL.iter().map(|experiment| experiment.kind)))]
+    pub kind: Option<String>,
 }
 
 /// Options of `completions`.

@@ -4,7 +4,7 @@ use crate::cli::arguments::{Arguments, Verb};
 use crate::cli::console::{self, ConsoleError};
 use crate::cli::exit::Exit;
 use crate::cli::{
-    check, completions, figures, gc, graph, init, list, log, new, point, show, verify, version, watch, why,
+    check, completions, figures, gc, graph, init, list, log, new, point, schema, show, verify, version, watch, why,
 };
 use crate::numerics::lanes::dispatch::from_environment;
 use clap::Parser;
@@ -68,6 +68,7 @@ fn verb(verb: &Verb) -> Result<Exit, ConsoleError> {
         Verb::Verify(arguments) => verify::run(arguments),
         Verb::Gc(arguments) => gc::run(arguments),
         Verb::Log(arguments) => log::run(arguments),
+        Verb::Schema(arguments) => schema::run(arguments),
         Verb::Completions(arguments) => completions::run(arguments),
     }
 }

@@ -18,6 +18,7 @@ pub fn run(arguments: &GraphArguments) -> Result<Exit, ConsoleError> {
     let format = match (arguments.json, arguments.form) {
         (true, _) | (_, GraphForm::Json) => Format::Json,
         (_, GraphForm::Text) => Format::Text,
+        (_, GraphForm::Svg) => Format::Svg,
         (_, GraphForm::Dot) => Format::Dot,
         (_, GraphForm::Mermaid) => Format::Mermaid,
     };

@@ -16,6 +16,7 @@ pub mod log;
 pub mod new;
 pub mod point;
 pub mod progress;
+pub mod schema;
 pub mod session;
 pub mod show;
 pub mod verify;

@@ -1,6 +1,9 @@
 //! The accuracy level that a config or the command line asks for. It enters the parameters of nodes, and so their key.
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::Unexpected;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::borrow::Cow;
 use std::fmt;
 use std::str::FromStr;
 
@@ -8,6 +11,9 @@ use std::str::FromStr;
 pub const DRAFT: f64 = 1e-4;
 /// Relative error asked for the article: what `f64` can give.
 pub const ARTICLE: f64 = 1e-14;
+
+/// The largest relative error that can be asked for.
+pub const COARSEST: f64 = 0.1;
 
 /// How accurate results are asked to be.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,7 +65,7 @@ impl FromStr for Accuracy {
             "draft" => Ok(Self::Draft),
             "article" => Ok(Self::Article),
             _ => match text.parse::<f64>() {
-                Ok(error) if (ARTICLE..=0.1).contains(&error) => Ok(Self::Asked(error)),
+                Ok(error) if (ARTICLE..=COARSEST).contains(&error) => Ok(Self::Asked(error)),
                 _ => Err(UnknownAccuracy { found: text.to_owned() }),
             },
         }
@@ -81,12 +87,34 @@ impl<'de> Deserialize<'de> for Accuracy {
                 f.write_str("\"draft\", \"article\" or a relative error from 1e-14 to 0.1")
             }
             fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Accuracy, E> {
-                text.parse().map_err(E::custom)
+                text.parse().map_err(|_| E::invalid_value(Unexpected::Str(text), &self))
             }
             fn visit_f64<E: serde::de::Error>(self, x: f64) -> Result<Accuracy, E> {
-                format!("{x:e}").parse().map_err(E::custom)
+                format!("{x:e}").parse().map_err(|_| E::invalid_value(Unexpected::Float(x), &self))
             }
         }
         deserializer.deserialize_any(Visitor)
+    }
+}
+
+/// Written by hand beside the reader: a name or a number, which no derive can know. (A number in quotes is read too, as on the
+/// command line; an editor need not offer that.)
+impl JsonSchema for Accuracy {
+    fn schema_name() -> Cow<'static, str> {
+        "Accuracy".into()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "How accurate results are asked to be: \"draft\" (1e-4), \"article\" (1e-14), or a relative error from 1e-14 to 0.1.",
+            "anyOf": [
+                { "enum": [Self::Draft, Self::Article] },
+                { "type": "number", "minimum": ARTICLE, "maximum": COARSEST },
+            ],
+        })
     }
 }

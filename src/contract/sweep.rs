@@ -4,12 +4,13 @@
 //! told apart by a visitor, so that errors keep line and column (serde's untagged form loses them).
 
 use super::config::Invalid;
+use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::fmt;
 
 /// How the values of a range are spaced.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Spacing {
     /// Equal differences, the default.
@@ -20,7 +21,7 @@ pub enum Spacing {
 }
 
 /// A range of values with both ends.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Range {
     /// The first value, exactly.
@@ -35,7 +36,8 @@ pub struct Range {
 }
 
 /// A swept quantity.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[schemars(untagged)]
 pub enum Sweep {
     /// One value.
     One(f64),

@@ -8,10 +8,11 @@ use crate::contract::sweep::Sweep;
 use crate::effects::spin::momenta::Momenta;
 use crate::geometry::rotation_group::euler_angles::SMALLEST_SINE;
 use crate::geometry::serret_andoyer::Metric;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// An effect that a scene can call for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Effect {
     /// Trajectories of the metric.
@@ -92,7 +93,7 @@ pub fn supported(metric: &str) -> &'static [Effect] {
 }
 
 /// A scene: `M` is the metric's part of the config, `S` the start's.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene<M, S> {
     /// The metric and its parameters.
@@ -101,7 +102,7 @@ pub struct Scene<M, S> {
     pub start: S,
     /// The effects called for: nothing else is computed.
     pub effects: Vec<Effect>,
-    /// How accurate results are asked to be.
+    /// How accurate results are asked to be: `"draft"` (1e-4), `"article"` (1e-14), or a relative error from 1e-14 to 0.1.
     #[serde(default)]
     pub accuracy: Accuracy,
 }
@@ -137,7 +138,7 @@ impl<M, S> Scene<M, S> {
 }
 
 /// `metric.serret-andoyer = { A = 1.5, B = 2.0, C = 2.8 }`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SerretAndoyerMetric {
     /// The metric's parameters.
@@ -146,7 +147,7 @@ pub struct SerretAndoyerMetric {
 }
 
 /// `metric.rotation-group = { A = 1.5, B = 2.0, C = 2.8 }`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RotationGroupMetric {
     /// The metric's parameters.
@@ -155,7 +156,7 @@ pub struct RotationGroupMetric {
 }
 
 /// The inverse moments of inertia, `A < B < C`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Inertia {
     /// Inverse of the largest moment of inertia.
@@ -182,7 +183,7 @@ impl From<Inertia> for crate::effects::rotation_group::start::Body {
 }
 
 /// `start = { cases = [{ Phi = [0.0, 2.8506, -0.32175], p = [0.0, 0.0, 0.3155946] }] }`: single extremals on SO(3).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EulerCases {
     /// The extremals, in the order of their panels.
@@ -190,7 +191,7 @@ pub struct EulerCases {
 }
 
 /// Euler angles and their momenta.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EulerCase {
     /// Φ1, Φ2, Φ3 (rad), sin Φ2 not zero.
@@ -233,7 +234,7 @@ impl EulerCases {
 }
 
 /// `start = { phi0 = 0.0 }`: where extremals of the Serret-Andoyer metric start, in all directions.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Phi0Start {
     /// Distance from the equator (length), `|phi0| < K(k)/alpha`: a number, a list or a range.
@@ -252,7 +253,7 @@ impl Phi0Start {
 }
 
 /// `start = { phi0 = 0.0, p_theta = [0.62, 0.75] }`: a fan of extremals of the Serret-Andoyer metric from one point.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FanStart {
     /// Distance from the equator (length), `|phi0| < K(k)/alpha`.
@@ -279,7 +280,7 @@ impl FanStart {
 }
 
 /// `start = { phi0 = -0.75, p_theta = [0.64, 0.75] }`: a start, and Clairaut constants that it need not have itself.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Phi0Family {
     /// Distance from the equator (length), `|phi0| < K(k)/alpha`.
@@ -306,7 +307,7 @@ impl Phi0Family {
 }
 
 /// `start = { xi1 = [0.4, 0.9], starts = 71 }`: oscillating extremals by `ξ1`, each from several phases.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OscillatingStart {
     /// `ξ1`, between 0 and 1: a number, a list or a range; one node a value.
@@ -382,7 +383,7 @@ impl Validate for RotationGroupMetric {
 }
 
 /// `metric.spin = { k = [0.8, 0.5] }`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpinMetric {
     /// The metric's parameters.
@@ -390,7 +391,7 @@ pub struct SpinMetric {
 }
 
 /// The ratio of the couplings of the three spins.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpinParameters {
     /// `k = J23/J12 > 0`: a number, a list or a range; one node a value.
@@ -398,7 +399,7 @@ pub struct SpinParameters {
 }
 
 /// `start = { p_theta = 1e-4 }`: one start on the equator of the spin problem, φ(0) = π/2, θ(0) = 0, p_φ(0) = −2.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EquatorStart {
     /// `p_θ(0)`, any finite number.
@@ -406,7 +407,7 @@ pub struct EquatorStart {
 }
 
 /// `start = { p_theta = { from = 1e-9, to = 1e4, step = 0.1 } }`: all starts of a branch, θ(0) = 0, φ(0) = π/2, p_φ(0) = −2, H = 1.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BranchStart {
     /// The momenta `p_θ(0) ≥ 0`; inside a node they are its rows.
@@ -425,7 +426,7 @@ impl Validate for BranchStart {
 }
 
 /// `start = { p_theta = { from = 1e-4, to = 50, count = 400, spacing = "log" } }`: the same for many `p_θ`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct EquatorStarts {
     /// `p_θ(0)`: a number, a list or a range.

@@ -30,10 +30,11 @@ use crate::plot::mark::{Curve, Points, RuleLine, Side, Text};
 use crate::plot::picture::{Panel, Picture, Width};
 use crate::plot::role::{Marker, Role};
 use crate::table::{Table, Tables};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// Relative errors asked for, falling; at least one.
@@ -53,7 +54,7 @@ pub struct Params {
 }
 
 /// The spin problem's starts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpinStarts {
     /// `k > 0`.
@@ -63,7 +64,7 @@ pub struct SpinStarts {
 }
 
 /// The Serret-Andoyer flow's starts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SerretAndoyerStarts {
     /// Inverse moments of inertia.
@@ -75,7 +76,7 @@ pub struct SerretAndoyerStarts {
 }
 
 /// The starts on SO(3).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RotationGroupStarts {
     /// Inverse moments of inertia.
@@ -85,7 +86,7 @@ pub struct RotationGroupStarts {
 }
 
 /// How times are measured.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Measurement {
     /// How often each start is integrated, 1 to 10000.

@@ -16,6 +16,7 @@ use crate::experiments::nodes::Nodes;
 use crate::experiments::scenes::more::Asked;
 use crate::plot::picture::{Picture, Width};
 use crate::table::{Table, Tables};
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 use serde::{Serialize, Serializer};
 
@@ -32,7 +33,7 @@ const LEGEND_MM: f64 = 6.0;
 /// An experiment, as its module writes it.
 pub trait Definition: 'static {
     /// The config's content beside `kind = "…"`.
-    type Params: Serialize + DeserializeOwned + Validate + Clone + Send + Sync;
+    type Params: Serialize + DeserializeOwned + JsonSchema + Validate + Clone + Send + Sync;
 
     /// The module's name, and the `kind` of its configs.
     const ID: &'static str;
@@ -125,6 +126,7 @@ pub struct Experiment {
     /// Whether it has measurements.
     pub measures: bool,
     plan: fn(&str, &ConfigSource, Request) -> Result<Planned, PlanError>,
+    schema: fn() -> serde_json::Value,
 }
 
 /// A plan, and the digest of the config it was made from (of its values: layout and comments are free).
@@ -155,7 +157,20 @@ pub enum PlanError {
 impl Experiment {
     /// The constant of a definition.
     pub const fn of<D: Definition>() -> Self {
-        Self { kind: D::ID, title: D::TITLE, place: D::PLACE, measures: D::MEASURED.is_some(), plan: plan::<D> }
+        Self {
+            kind: D::ID,
+            title: D::TITLE,
+            place: D::PLACE,
+            measures: D::MEASURED.is_some(),
+            plan: plan::<D>,
+            schema: config::schema::<D::Params>,
+        }
+    }
+
+    /// The JSON schema of its configs, made from the types that read them.
+    pub fn schema(&self) -> serde_json::Value {
+        let describing = format!("Config of {} ({})", self.title, self.place);
+        config::with_kind((self.schema)(), self.kind, &describing)
     }
 
     /// Reads a config and plans its nodes; `id` is the stem of the config's file name.

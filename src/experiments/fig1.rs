@@ -26,11 +26,12 @@ use crate::plot::mark::{Band, Curve, Points, RuleLine};
 use crate::plot::picture::{Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::{Table, Tables};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// Body, fan of extremals, effects, accuracy.
@@ -42,7 +43,7 @@ pub struct Params {
 }
 
 /// What the panels show.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shown {
     /// Points of the curves of panel (a): odd, 3 to 9999.

@@ -21,10 +21,11 @@ use crate::effects::serret_andoyer::geodesics::{EQUATOR, OSCILLATING, SEPARATRIX
 use crate::effects::serret_andoyer::potential::{FAMILY, Potential, START};
 use crate::plot::picture::{Picture, Width};
 use crate::table::Tables;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// Body, start, Clairaut constants, effects, accuracy.
@@ -34,7 +35,7 @@ pub struct Params {
 }
 
 /// What is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shown {
     /// Points of each curve: odd, 3 to 9999.

@@ -31,11 +31,12 @@ use crate::plot::mark::{At, Curve, DirectLabel, Points, RuleLine, Side};
 use crate::plot::picture::{Cell, Inset, Layout, Panel, Picture, Place, Width};
 use crate::plot::role::Role;
 use crate::table::{Table, Tables};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// Body, starts, effects, accuracy.
@@ -49,7 +50,7 @@ pub struct Params {
 }
 
 /// Points of the loci.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LocusSpacing {
     /// The smallest δ as a part of the largest, in [1e-13, 0.2].
@@ -61,7 +62,7 @@ pub struct LocusSpacing {
 }
 
 /// Wave fronts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fronts {
     /// Times (length), above 0, at most 30.
@@ -71,7 +72,7 @@ pub struct Fronts {
 }
 
 /// What the panels show.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shown {
     /// Turns of θ (2π each) to both sides, above 0, at most 100.
@@ -87,7 +88,7 @@ pub struct Shown {
 }
 
 /// The size of an inset.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Window {
     /// Width in θ (rad), above 0, at most 100.

@@ -27,11 +27,12 @@ use crate::plot::mark::{Curve, Points, RuleLine, Side, Text};
 use crate::plot::picture::{Legend, Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::{Table, TableError, Tables};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// k along the curves, `p_θ`, effects, accuracy.
@@ -41,7 +42,7 @@ pub struct Params {
 }
 
 /// Momenta that show the limit `p_θ → 0`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Limit {
     /// Values of `p_θ`, above 0, each once; may be empty.

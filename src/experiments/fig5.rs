@@ -28,11 +28,12 @@ use crate::plot::mark::{Curve, Points, RuleLine};
 use crate::plot::picture::{Inset, Panel, Picture, Place, Width};
 use crate::plot::role::Role;
 use crate::table::Tables;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// The values of k ≥ 1, the starts, the effect, the accuracy.
@@ -44,7 +45,7 @@ pub struct Params {
 }
 
 /// Where the branch is searched for double points, for statements about all k.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoopSearch {
     /// Values of k, 1 to 3, at most 400 of them.
@@ -52,7 +53,7 @@ pub struct LoopSearch {
 }
 
 /// One panel.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PanelParams {
     /// Its values of k, one to four of the scene's.
@@ -63,7 +64,7 @@ pub struct PanelParams {
 }
 
 /// A part of a panel drawn again at its own scale.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InsetParams {
     /// The range of θ, radians.

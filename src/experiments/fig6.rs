@@ -29,11 +29,12 @@ use crate::plot::mark::{Curve, Points, RuleLine};
 use crate::plot::picture::{Layout, Letter, Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::{Table, TableError, Tables};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// The grid of k and `p_θ`, effects, accuracy.
@@ -45,7 +46,7 @@ pub struct Params {
 }
 
 /// How types are told apart.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Types {
     /// A total decrease of θ on `[0, t1]` up to this counts as none, radians, in (0, π).
@@ -57,7 +58,7 @@ pub struct Types {
 }
 
 /// One extremal.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Example {
     /// Ratio of the couplings, above 0.

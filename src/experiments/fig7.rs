@@ -28,11 +28,12 @@ use crate::plot::mark::{Curve, Points, RuleLine};
 use crate::plot::picture::{Layout, Panel, Picture, Place, Width};
 use crate::plot::role::Role;
 use crate::table::Tables;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// The values of k in (0, 1), the starts, the effects, the accuracy.
@@ -42,7 +43,7 @@ pub struct Params {
 }
 
 /// Extremals whose ends are spread evenly along the branch `p_φ = −2`, `p_θ ≥ 0`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Trajectories {
     /// How many, 1 to 100.

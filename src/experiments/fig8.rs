@@ -24,11 +24,12 @@ use crate::plot::mark::{SphereCurve, SpherePoints};
 use crate::plot::picture::{Panel, Picture, View, Width};
 use crate::plot::role::Role;
 use crate::table::Tables;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// The values of k, the starts, the effect, the accuracy.
@@ -38,7 +39,7 @@ pub struct Params {
 }
 
 /// The loci on one sphere, and from where it is seen.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
     /// Its values of k, one to four of the scene's; the first of several is the reference.

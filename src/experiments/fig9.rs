@@ -34,10 +34,11 @@ use crate::plot::mark::{Curve, Points};
 use crate::plot::picture::{Cell, Layout, Legend, Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::{Table, Tables};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// Body, starts, effects, accuracy.
@@ -49,7 +50,7 @@ pub struct Params {
 }
 
 /// How long curves are.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Curves {
     /// Where they end (time), above 0.
@@ -59,7 +60,7 @@ pub struct Curves {
 }
 
 /// The reduced extremal that the article names.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Reduced {
     /// cos²y at its start, in (0, 1); y = arccos of its root.

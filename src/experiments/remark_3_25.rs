@@ -27,10 +27,11 @@ use crate::plot::mark::DirectLabel;
 use crate::plot::picture::{Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::Tables;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// Body, starts of the curves drawn, effects, accuracy.
@@ -40,7 +41,7 @@ pub struct Params {
 }
 
 /// Starts from which the limit `φ0 → 0` is extrapolated.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Limit {
     /// Distances from the equator (length), positive, falling by at least a quarter each time; at least two.

@@ -40,12 +40,13 @@ use crate::effects::spin::momenta::Momenta;
 use crate::effects::spin::starts::Starts;
 use crate::plot::picture::Picture;
 use crate::table::Tables;
+use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 use std::fmt;
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// Metric, starts, effects, accuracy.
@@ -62,8 +63,9 @@ pub struct Params {
 }
 
 /// One of the metrics.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(extend("minProperties" = 1, "maxProperties" = 1))]
 pub struct AnyMetric {
     /// `{ A, B, C }`, inverse moments of inertia, `A < B < C`.
     #[serde(rename = "serret-andoyer", default, skip_serializing_if = "Option::is_none")]
@@ -77,7 +79,7 @@ pub struct AnyMetric {
 }
 
 /// Where extremals start; which of these, the metric says.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AnyStart {
     /// Momenta `p_θ ≥ 0`: rows inside a node.
@@ -92,7 +94,8 @@ pub struct AnyStart {
 }
 
 /// Momenta: as many as a curve needs, or those that are listed.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[schemars(untagged)]
 pub enum StartMomenta {
     /// `{ from, to, step }`.
     Branch(Momenta),
@@ -101,7 +104,7 @@ pub enum StartMomenta {
 }
 
 /// Wave fronts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fronts {
     /// Times, above 0, at most 30; one node a value and start.
@@ -109,7 +112,7 @@ pub struct Fronts {
 }
 
 /// Extremals of a spin scene, up to their first conjugate points.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Trajectories {
     /// How many, 1 to 100.
@@ -119,7 +122,7 @@ pub struct Trajectories {
 }
 
 /// How far curves reach.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shown {
     /// Serret-Andoyer: turns of θ (2π each) to both sides, above 0, at most 100.
@@ -185,7 +188,7 @@ impl<'de> Deserialize<'de> for StartMomenta {
                         let spacing = spacing.unwrap_or_default();
                         Ok(StartMomenta::Swept(Sweep::Range(Range { from, to, count, spacing })))
                     }
-                    _ => Err(de::Error::custom("`step` alone (as many as the curves need), or `count` with `spacing`")),
+                    _ => Err(de::Error::invalid_value(de::Unexpected::Map, &self)),
                 }
             }
         }

@@ -19,10 +19,11 @@ use crate::plot::mark::Curve;
 use crate::plot::picture::{Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::Tables;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters: what the config holds beside `kind`. One doc line a field, with unit and range.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// Body, starts, effects, accuracy.

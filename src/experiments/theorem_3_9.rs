@@ -28,10 +28,11 @@ use crate::plot::mark::{At, Curve, DirectLabel, Points, RuleLine, Side};
 use crate::plot::picture::{Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::{Table, Tables};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Params {
     /// Body, extremals of part 1, effects, accuracy.
@@ -45,7 +46,7 @@ pub struct Params {
 }
 
 /// Towards the supremum.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Supremum {
     /// `1 − ξ1`, in [1e-18, 1), falling; at least one.
@@ -53,7 +54,7 @@ pub struct Supremum {
 }
 
 /// Extremals of part 2.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Part2 {
     /// Starts (length), `|φ0| < K(k)/α`; at least one, each once.
@@ -63,7 +64,7 @@ pub struct Part2 {
 }
 
 /// Which constants `p_θ`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ConstantSpacing {
     /// The smallest δ as a part of the largest, in [1e-13, 0.2].
@@ -75,7 +76,7 @@ pub struct ConstantSpacing {
 }
 
 /// One extremal beyond the printed bound.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Counterexample {
     /// Energy, above 0.

@@ -28,7 +28,7 @@
 //! Map: `graph` joins plans, `select` finds what targets need; `schedule` decides what runs (its states are listed there;
 //! `examine` and `start` are its two questions), `work` does it; `record`,
 //! `store`, `format`, `heads`, `runs` are the files of the store, `disk` all calls to the file system (with a place for fault
-//! injection), `exports` the output folder; `forecast`, `reason`, `locate`, `why` explain; `render` draws the graph.
+//! injection), `exports` the output folder; `forecast`, `reason`, `locate`, `why` explain; `render` writes the graph, `diagram` and `picture` draw it.
 //!
 //! Invariants: nothing is believed that was not hashed in this run. Objects are durable before the record that names
 //! them. A lock is taken before its node starts, and never waited for on a pool's thread. No time, host or path enters a
@@ -36,6 +36,7 @@
 //!
 //! [`Plan`]: crate::contract::plan::Plan
 
+mod diagram;
 pub mod disk;
 pub mod events;
 mod examine;
@@ -47,6 +48,7 @@ pub mod graph;
 pub mod heads;
 mod locate;
 mod parallel;
+mod picture;
 pub mod reason;
 pub mod record;
 pub mod render;

@@ -1,6 +1,7 @@
-//! The graph as text, Graphviz's dot, mermaid, JSON. Draws; decides nothing.
+//! The graph as text, SVG, Graphviz's dot, mermaid, JSON. Draws; decides nothing.
 
 use super::graph::Graph;
+use super::picture;
 use super::select::Selection;
 use serde_json::{Value, json};
 use std::collections::HashMap;
@@ -12,6 +13,8 @@ use std::str::FromStr;
 pub enum Format {
     /// Lines for people.
     Text,
+    /// A picture.
+    Svg,
     /// Graphviz.
     Dot,
     /// Mermaid.
@@ -22,7 +25,7 @@ pub enum Format {
 
 /// A format that is not one of those known.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("format {0:?} is not known: use text, dot, mermaid or json")]
+#[error("format {0:?} is not known: use text, svg, dot, mermaid or json")]
 pub struct UnknownFormat(pub String);
 
 impl FromStr for Format {
@@ -30,6 +33,7 @@ impl FromStr for Format {
     fn from_str(text: &str) -> Result<Self, UnknownFormat> {
         match text {
             "text" => Ok(Self::Text),
+            "svg" => Ok(Self::Svg),
             "dot" => Ok(Self::Dot),
             "mermaid" => Ok(Self::Mermaid),
             "json" => Ok(Self::Json),
@@ -44,6 +48,7 @@ pub fn render(graph: &Graph, selection: &Selection, format: Format) -> String {
     let mut text = String::new();
     let _ = match format {
         Format::Text => as_text(graph, selection, &mut text),
+        Format::Svg => picture::write(graph, selection, &mut text),
         Format::Dot => as_dot(graph, selection, &mut text),
         Format::Mermaid => as_mermaid(graph, selection, &mut text),
         Format::Json => writeln!(text, "{:#}", as_json(graph, selection)),

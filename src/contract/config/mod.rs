@@ -11,9 +11,11 @@ mod error;
 mod explain;
 mod place;
 mod read;
+mod schema;
 mod validate;
 
 pub use error::{ConfigError, ConfigProblem};
 pub use place::locate;
 pub use read::{digest, leaves, peek_kind, read, unknown_kind};
+pub use schema::{one_of, schema, with_kind};
 pub use validate::{Invalid, Validate};

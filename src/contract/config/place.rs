@@ -3,6 +3,25 @@
 use std::ops::Range;
 use toml::de::{DeArray, DeTable, DeValue};
 
+/// What stands at a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Shape {
+    Table,
+    List,
+    /// A number, a text, a date, true or false.
+    Leaf,
+}
+
+impl Shape {
+    fn of(value: &DeValue<'_>) -> Self {
+        match value {
+            DeValue::Table(_) => Self::Table,
+            DeValue::Array(_) => Self::List,
+            _ => Self::Leaf,
+        }
+    }
+}
+
 /// A key or list element of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Place {
@@ -12,6 +31,8 @@ pub(super) struct Place {
     pub key: Range<usize>,
     /// The bytes of the value; of a table with a header, those of the header.
     pub value: Range<usize>,
+    /// What it is.
+    pub shape: Shape,
 }
 
 impl Place {
@@ -37,7 +58,8 @@ fn in_table(table: &DeTable<'_>, path: &str, found: &mut Vec<Place>) {
     for (key, value) in table {
         let name = key.get_ref();
         let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
-        found.push(Place { path: path.clone(), key: key.span(), value: value.span() });
+        let shape = Shape::of(value.get_ref());
+        found.push(Place { path: path.clone(), key: key.span(), value: value.span(), shape });
         in_value(value.get_ref(), &path, found);
     }
 }
@@ -45,7 +67,8 @@ fn in_table(table: &DeTable<'_>, path: &str, found: &mut Vec<Place>) {
 fn in_array(array: &DeArray<'_>, path: &str, found: &mut Vec<Place>) {
     for (index, value) in array.iter().enumerate() {
         let path = format!("{path}[{index}]");
-        found.push(Place { path: path.clone(), key: value.span(), value: value.span() });
+        let shape = Shape::of(value.get_ref());
+        found.push(Place { path: path.clone(), key: value.span(), value: value.span(), shape });
         in_value(value.get_ref(), &path, found);
     }
 }

@@ -2,11 +2,13 @@
 
 use super::error::{ConfigError, ConfigProblem};
 use super::explain::{explain, written};
-use super::place::{Place, parent, places};
+use super::place::{Place, Shape, parent, places};
 use super::validate::{Invalid, Validate};
 use crate::contract::digest::{Digest, Framed};
 use crate::contract::manifest::{self, Line};
+use serde::Serialize;
 use serde::de::DeserializeOwned;
+use std::collections::HashMap;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -20,7 +22,7 @@ const KIND: &str = "kind";
 /// # Errors
 /// The first thing that is wrong, in this order: syntax, a number that is not finite, unknown keys, wrong types, missing
 /// keys, values that [`Validate`] does not accept.
-pub fn read<P: DeserializeOwned + Validate>(file: &str, text: &str) -> Result<P, ConfigError> {
+pub fn read<P: DeserializeOwned + Serialize + Validate>(file: &str, text: &str) -> Result<P, ConfigError> {
     let document = parse(file, text)?;
     let places = places(document.get_ref());
     finite(file, text, document.get_ref(), &places)?;
@@ -37,6 +39,7 @@ pub fn read<P: DeserializeOwned + Validate>(file: &str, text: &str) -> Result<P,
         }
         Err(error) => return Err(fail(&error)),
     };
+    shapes(file, text, &places, &params)?;
     params.validate().map_err(|invalid| refused(file, text, &places, invalid))?;
     Ok(params)
 }
@@ -164,6 +167,44 @@ fn finite(file: &str, text: &str, document: &DeTable<'_>, places: &[Place]) -> R
     Err(ConfigError::at(file, text, place.value.clone(), problem))
 }
 
+/// serde's derived readers take a list for a table, its elements for the fields in their order, and a table for a name: nobody means
+/// that in a config. What was read, written again, tells what each place should be.
+fn shapes<P: Serialize>(file: &str, text: &str, places: &[Place], params: &P) -> Result<(), ConfigError> {
+    fn walk<'v>(value: &'v toml::Value, path: String, found: &mut HashMap<String, &'v toml::Value>) {
+        match value {
+            toml::Value::Table(table) => table.iter().for_each(|(key, inner)| {
+                walk(inner, if path.is_empty() { key.clone() } else { format!("{path}.{key}") }, found);
+            }),
+            toml::Value::Array(items) => {
+                items.iter().enumerate().for_each(|(index, inner)| walk(inner, format!("{path}[{index}]"), found));
+            }
+            _ => {}
+        }
+        found.insert(path, value);
+    }
+    // What can't be written is found out when nodes are made of it.
+    let Ok(value) = toml::Value::try_from(params) else { return Ok(()) };
+    let mut meant = HashMap::new();
+    walk(&value, String::new(), &mut meant);
+    for place in places {
+        let accepted = match (place.shape, meant.get(&place.path)) {
+            (Shape::List, Some(toml::Value::Table(_))) => "a table: { key = … }",
+            (Shape::Table, Some(toml::Value::Array(_))) => "a list: [ … ]",
+            (Shape::List | Shape::Table, Some(toml::Value::String(_))) => "a text in quotes",
+            _ => continue,
+        };
+        let problem = ConfigProblem {
+            key: place.path.clone(),
+            found: written(text, &place.shown(text)),
+            accepted: accepted.to_owned(),
+            message: format!("wrong type of `{}`", place.path),
+            ..ConfigProblem::default()
+        };
+        return Err(ConfigError::at(file, text, place.shown(text), problem));
+    }
+    Ok(())
+}
+
 /// A value that is not accepted, shown where it stands, or where the innermost table of its path stands (a default that
 /// another value makes wrong stands nowhere).
 fn refused(file: &str, text: &str, places: &[Place], invalid: Invalid) -> ConfigError {
@@ -184,9 +225,9 @@ fn refused(file: &str, text: &str, places: &[Place], invalid: Invalid) -> Config
 mod tests {
     use super::*;
     use crate::contract::sweep::Sweep;
-    use serde::Deserialize;
+    use serde::{Deserialize, Serialize};
 
-    #[derive(Debug, Deserialize)]
+    #[derive(Debug, Serialize, Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Params {
         scene: Scene,
@@ -194,7 +235,7 @@ mod tests {
         count: u32,
     }
 
-    #[derive(Debug, Deserialize)]
+    #[derive(Debug, Serialize, Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Scene {
         metric: Metric,
@@ -203,7 +244,7 @@ mod tests {
         bounds: Option<[f64; 2]>,
     }
 
-    #[derive(Debug, Deserialize)]
+    #[derive(Debug, Serialize, Deserialize)]
     #[serde(rename_all = "kebab-case", deny_unknown_fields)]
     enum Metric {
         Spin(Spin),
@@ -213,13 +254,13 @@ mod tests {
         },
     }
 
-    #[derive(Debug, Deserialize)]
+    #[derive(Debug, Serialize, Deserialize)]
     #[serde(deny_unknown_fields)]
     struct Spin {
         k: Sweep,
     }
 
-    #[derive(Debug, Deserialize, PartialEq)]
+    #[derive(Debug, Serialize, Deserialize, PartialEq)]
     #[serde(rename_all = "kebab-case")]
     enum Effect {
         Geodesics,
@@ -268,7 +309,7 @@ effects = [\"geodesics\", \"conjugate-locus\"]
         let params: Params = read("f", GOOD).expect("good");
         assert_eq!(params.scene.effects, [Effect::Geodesics, Effect::ConjugateLocus]);
         assert_eq!(params.scene.bounds, None);
-        #[derive(Debug, Deserialize)]
+        #[derive(Debug, Serialize, Deserialize)]
         #[serde(deny_unknown_fields)]
         struct WithKind {
             kind: String,
@@ -320,6 +361,12 @@ effects = [\"geodesics\", \"conjugate-locus\"]
         let table = error("{ k = [0.8, 0.5] }", "0.8");
         assert_eq!(summary(&table), (5, 15, "scene.metric.spin", "0.8", None));
         assert_eq!(table.accepted, "a table: { key = … }");
+        // A list of a table's values, a table in place of a name.
+        let list = error("{ k = [0.8, 0.5] }", "[[0.8, 0.5], 1]");
+        assert_eq!(summary(&list), (5, 15, "scene.metric.spin", "[[0.8, 0.5], 1]", None));
+        assert_eq!(list.accepted, "a table: { key = … }");
+        let name = error("\"geodesics\"", "{ geodesics = {} }");
+        assert_eq!((name.line, name.key.as_str()), (6, "scene.effects[0]"));
         let short = error("[scene]", "[scene]\nbounds = [1.0]");
         assert_eq!(summary(&short), (5, 10, "scene.bounds", "[1.0]", None));
         let spacing = error("[0.8, 0.5]", "{ from = 1, to = 2, count = 3, spacing = \"logg\" }");
