@@ -85,6 +85,11 @@ impl DoubleDouble {
         })
     }
 
+    /// `self · 2^exponent`: exact, unless a part overflows or becomes subnormal.
+    pub fn times_power_of_two(self, exponent: i32) -> Self {
+        Self { high: libm::scalbn(self.high, exponent), low: libm::scalbn(self.low, exponent) }
+    }
+
     /// Exact multiplication by a power of two.
     fn scaled(self, power: f64) -> Self {
         Self { high: self.high * power, low: self.low * power }

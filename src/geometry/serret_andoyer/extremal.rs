@@ -133,6 +133,7 @@ impl<S: Real> Origin<S> {
 
     /// Errors: those of [`Extremal::new`].
     pub(super) fn new(metric: &Metric<S>, start: Start<S>, memory: &mut Memory<S>) -> Result<Self, StartError> {
+        start.check_finite()?;
         match start {
             Start::Momenta { y0, p_x, p_y } => Self::from_momenta(metric, [y0, p_x, p_y], memory),
             Start::Darboux { phi0, clairaut, branch } => Self::from_darboux(metric, phi0, clairaut, branch, memory),
@@ -140,7 +141,6 @@ impl<S: Real> Origin<S> {
     }
 
     fn from_momenta(metric: &Metric<S>, [y0, p_x, p_y]: [S; 3], memory: &mut Memory<S>) -> Result<Self, StartError> {
-        check_finite([("y0", y0), ("p_x", p_x), ("p_y", p_y)])?;
         if p_x == S::ZERO && p_y == S::ZERO {
             return Err(StartError::NoMomentum);
         }
@@ -181,11 +181,6 @@ impl<S: Real> Origin<S> {
         memory: &mut Memory<S>,
     ) -> Result<Self, StartError> {
         let (a, b) = (metric.a(), metric.b());
-        let (name, value) = match clairaut {
-            Clairaut::PTheta(p) => ("p_theta", p),
-            Clairaut::Delta(delta) => ("delta", delta),
-        };
-        check_finite([("phi0", phi0), (name, value), (name, value)])?;
         if phi0.abs() >= metric.half_width() {
             let (phi0, half_width) = (phi0.to_f64(), metric.half_width().to_f64());
             return Err(StartError::OutsideStrip { phi0, half_width });
@@ -382,13 +377,6 @@ impl<S: Real> Extremal<S> {
     /// `[−2K, 0]` when descending.
     pub fn psi0(&self) -> S {
         self.direction * (self.complete_k + self.phase())
-    }
-}
-
-fn check_finite<S: Real>(inputs: [(&'static str, S); 3]) -> Result<(), StartError> {
-    match inputs.into_iter().find(|(_, value)| !value.is_finite()) {
-        Some((name, value)) => Err(StartError::NotFinite { name, value: value.to_f64() }),
-        None => Ok(()),
     }
 }
 

@@ -48,6 +48,25 @@ pub enum Start<S: Real = f64> {
     },
 }
 
+impl<S: Real> Start<S> {
+    /// Errors: [`StartError::NotFinite`] names the first input that is infinite or not a number.
+    pub fn check_finite(&self) -> Result<(), StartError> {
+        let inputs = match *self {
+            Self::Momenta { y0, p_x, p_y } => [("y0", y0), ("p_x", p_x), ("p_y", p_y)],
+            Self::Darboux { phi0, clairaut: Clairaut::PTheta(p), .. } => {
+                [("phi0", phi0), ("p_theta", p), ("p_theta", p)]
+            }
+            Self::Darboux { phi0, clairaut: Clairaut::Delta(delta), .. } => {
+                [("phi0", phi0), ("delta", delta), ("delta", delta)]
+            }
+        };
+        match inputs.into_iter().find(|(_, value)| !value.is_finite()) {
+            Some((name, value)) => Err(StartError::NotFinite { name, value: value.to_f64() }),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Why a metric or a start is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum StartError {
@@ -79,6 +98,12 @@ pub enum StartError {
         p_x: f64,
         /// `p_y`.
         p_y: f64,
+    },
+    /// The answer leaves the range of the numbers.
+    #[error("t1 = 2^{log2} is no number here: scale the inertia or the momenta, since t1 goes with their inverse")]
+    TimeOutOfScale {
+        /// The binary logarithm of `t1`.
+        log2: f64,
     },
     /// φ0 outside the strip.
     #[error("|phi0| < K(k)/alpha = {half_width} is needed, found phi0 = {phi0}")]
