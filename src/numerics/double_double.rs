@@ -21,7 +21,7 @@ pub struct DoubleDouble {
 }
 
 /// `a + b` as a rounded sum and its exact error.
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let b_part = sum - a;
     (sum, (a - (sum - b_part)) + (b - b_part))
@@ -41,7 +41,7 @@ fn split(a: f64) -> (f64, f64) {
 }
 
 /// `a · b` as a rounded product and its exact error.
-fn two_product(a: f64, b: f64) -> (f64, f64) {
+pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     let (ah, al) = split(a);
     let (bh, bl) = split(b);

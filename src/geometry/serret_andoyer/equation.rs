@@ -40,7 +40,7 @@ pub(super) struct Oscillating<P> {
     pub(super) to_separatrix: P,
     pub(super) to_equator: P,
     pub(super) to_minor_axis: P,
-    /// Relative errors of `D`, `X3` and `g`.
+    /// Relative errors of `D`, `X3` and `g`; where `g = 0`, in place of its own that of `cos² am v0`.
     pub(super) separatrix_error: P,
     pub(super) minor_axis_error: P,
     pub(super) in_y_error: P,
@@ -363,8 +363,9 @@ impl<P: Pack> Equation<P> {
         let of_start = half * e.in_y_error + P::from_f64(3.0) * P::EPSILON;
         let noise = rounding * (start.p.abs() + self.n + self.n) * over;
         let own = (d_slope * of_d + start_slope * of_start + noise) / phase;
-        // At a turning point only the half period counts.
-        P::select(turning, (k_slope / k).abs() * of_d, own) + of_speed + rounding
+        // At a turning point only the half period counts, and that it is one: beside it `T − 2K = 2N cos² am v0/m'`.
+        let aside = self.n / (mc * k) * e.in_y_error.min(P::ONE);
+        P::select(turning, (k_slope / k).abs() * of_d + aside, own) + of_speed + rounding
     }
 
     /// The time, and the phase where the extremal is then, from the equation solved.

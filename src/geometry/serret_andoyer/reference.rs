@@ -6,8 +6,8 @@
 //! leaves the range of the numbers unless a ratio of inputs does.
 //!
 //! **Doubt.** `f64` decides wrongly, or bounds its error by a first-order estimate that means nothing, where the distance to
-//! a limit is itself made of rounding: `D` near the separatrix (unless `delta` says it), `g = p_y²(C − Z)` near a turning point, φ0
-//! at the edge of the strip. There [`in_doubt`] says so, and the caller asks here.
+//! a limit is itself made of rounding: `D` on the separatrix, posed by momenta; φ0 at the edge of the strip. There [`in_doubt`] says so, and
+//! the caller asks here. It is not needed near the separatrix posed by `delta` or `p_theta`, nor near a turning point, where `t1 − 2K/M` goes with `g`.
 //!
 //! A `p_θ` above `√μ(φ0)` by no more than one rounding of the inputs counts as equal here too: no `f64` is equal to it.
 
@@ -19,7 +19,7 @@ use super::start::{Clairaut, Start, StartError};
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
 
-/// From this relative error of `D` or `g` on, a first-order estimate of what it does to `t1` is not trusted.
+/// From this relative error of `D`, or of `t1`, on, a first-order estimate is not trusted.
 const DOUBTFUL: f64 = 1e-3;
 
 /// Roundings by which φ0 and the half-width of the strip may differ and still be mistaken for each other.
@@ -148,7 +148,6 @@ pub fn in_doubt(inertia: [f64; 3], start: Start, found: &Result<ConjugatePoint, 
     }
     // A refused start was in no doubt: it is refused beyond the allowance for rounding only.
     let Ok(origin) = Origin::new(&metric, start, &mut Memory::default()) else { return false };
-    let e = &origin.energies;
-    // A zero is in doubt too; no number is not below.
-    !(e.separatrix_error < DOUBTFUL && e.in_y_error < DOUBTFUL)
+    // A zero is in doubt too: its relative error is no number below.
+    !(origin.energies.separatrix_error < DOUBTFUL)
 }
