@@ -96,6 +96,21 @@ impl Scale {
     }
 }
 
+impl Metric<DoubleDouble> {
+    /// The metric of a body whose numbers are taken as exact. Errors: those of [`Metric::new`].
+    pub fn new_exact(inertia: [f64; 3]) -> Result<Self, StartError> {
+        let [a, b, c] = inertia.map(DoubleDouble::from_f64);
+        Self::new(a, b, c)
+    }
+}
+
+impl Start {
+    /// The start whose numbers are taken as exact.
+    pub fn exact(self) -> Start<DoubleDouble> {
+        Scale { length: 0, momentum: 0 }.start(self)
+    }
+}
+
 /// The first conjugate point for the inertia `A, B, C` and a start, in double-double.
 ///
 /// Guarantee: some 1e-30 times the condition of the problem, far below one rounding of the result to `f64` wherever the problem is posed in
