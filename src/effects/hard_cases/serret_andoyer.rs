@@ -26,6 +26,8 @@ pub const INERTIA: Body = Body { a: 1.5, b: 2.0, c: 2.8 };
 const START: f64 = -0.6;
 /// Starting place of the families that near the separatrix from a fixed place.
 const PHI0: f64 = -0.5;
+/// Starting place of the cusp: so near to the equator that a tenth below the largest `p_θ` is still oscillating.
+const CUSP_PHI0: f64 = -0.25;
 /// `y0` of the families that start from momenta; `p_x = 1` there.
 const Y0: f64 = 1.0;
 /// `δ` of the long path: near the separatrix, where the printed period is worst.
@@ -39,9 +41,9 @@ pub enum Family {
     Separatrix,
     /// `1 − p_y²(C − Z)/((B − A) p_x² cos²a) → 0`: the same posed by `y0, p_x, p_y`.
     SeparatrixMomenta,
-    /// `p_y → 0`: the turning point, `ψ0 → 0`.
+    /// `ψ0 → 0` by `p_θ → √μ(φ0)`, posed by `p_θ`.
     Cusp,
-    /// `ξ1 → 0` by `p_θ → A^(−1/2)`.
+    /// `ξ1 → 0` by `p_θ → A^(−1/2)`, posed by `p_θ`.
     Equator,
     /// `1 − |φ0| α/K → 0`, with δ half of the largest one there.
     StripEnd,
@@ -51,6 +53,8 @@ pub enum Family {
     NearOblate,
     /// `C/B − 1 → 0`.
     NearProlate,
+    /// The same from momenta, `p_y → p_x` with it, so that the trajectory keeps its kind.
+    NearProlateMomenta,
     /// `B/A − 1 = ½ (C/A − 1) → 0`.
     NearSphere,
     /// `1 − ξ1 = (C − B)/(B − A) → 0`: the characteristic of Π tends to 1, its parameter does not. The answer is `x(t1)`.
@@ -61,7 +65,7 @@ pub enum Family {
 
 impl Family {
     /// All of them.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Separatrix,
         Self::SeparatrixMomenta,
         Self::Cusp,
@@ -70,6 +74,7 @@ impl Family {
         Self::StripEndWithSeparatrix,
         Self::NearOblate,
         Self::NearProlate,
+        Self::NearProlateMomenta,
         Self::NearSphere,
         Self::ThirdKind,
         Self::LongTime,
@@ -86,9 +91,20 @@ impl Family {
             Self::StripEndWithSeparatrix => "strip-end-with-separatrix",
             Self::NearOblate => "near-oblate",
             Self::NearProlate => "near-prolate",
+            Self::NearProlateMomenta => "near-prolate-momenta",
             Self::NearSphere => "near-sphere",
             Self::ThirdKind => "third-kind",
             Self::LongTime => "long-time",
+        }
+    }
+
+    /// The distances between which it is of interest; the last is where inputs in f64 end, or a path of 1e9 periods.
+    pub fn range(self) -> (f64, f64) {
+        match self {
+            Self::Cusp => (0.05, 1e-16),
+            Self::Equator => (0.05, 1e-15),
+            Self::LongTime => (1.0, 1e-9),
+            _ => (0.1, 1e-15),
         }
     }
 
@@ -96,13 +112,20 @@ impl Family {
     pub fn meaning(self) -> &'static str {
         match self {
             Self::Separatrix => "t1 near the separatrix: distance is delta",
-            Self::SeparatrixMomenta => "t1 near the separatrix, from momenta: distance is 1 - p_y²/(p_y on the separatrix)²",
-            Self::Cusp => "t1 near the turning point: distance is p_y in units of its value on the separatrix",
-            Self::Equator => "t1 near the steady rotation: distance is 1 - delta/delta_max",
-            Self::StripEnd => "t1 from the edge of the strip: distance is 1 - |phi0| alpha/K, delta half its largest value",
-            Self::StripEndWithSeparatrix => "t1 from the edge of the strip, delta smaller than its largest value by the distance",
+            Self::SeparatrixMomenta => {
+                "t1 near the separatrix, from momenta: distance is 1 - p_y²/(p_y on the separatrix)²"
+            }
+            Self::Cusp => "t1 from beside the turning point: distance is 1 - p_theta/sqrt(mu(phi0))",
+            Self::Equator => "t1 near the steady rotation: distance is 1 - p_theta sqrt(A)",
+            Self::StripEnd => {
+                "t1 from the edge of the strip: distance is 1 - |phi0| alpha/K, delta half its largest value"
+            }
+            Self::StripEndWithSeparatrix => {
+                "t1 from the edge of the strip, delta smaller than its largest value by the distance"
+            }
             Self::NearOblate => "t1 as A and B become equal: distance is B/A - 1",
             Self::NearProlate => "t1 as B and C become equal: distance is C/B - 1",
+            Self::NearProlateMomenta => "t1 as B and C become equal, from momenta that do so too: distance is C/B - 1",
             Self::NearSphere => "t1 as A, B and C become equal: distance is B/A - 1",
             Self::ThirdKind => "x(t1) as the characteristic of Pi tends to 1: distance is 1 - xi1 = (C - B)/(B - A)",
             Self::LongTime => "phi after many periods: distance is one over their number",
@@ -313,7 +336,7 @@ impl HardCasesSerretAndoyer {
         let asked = Asked::ConjugateTime;
         let [a, b, c] = match self.family {
             Family::NearOblate => [a, a + a * distance, c],
-            Family::NearProlate => [a, b, b + b * distance],
+            Family::NearProlate | Family::NearProlateMomenta => [a, b, b + b * distance],
             Family::NearSphere => [a, a + a * distance, a + 2.0 * a * distance],
             Family::ThirdKind => [a, b, b + (b - a) * distance],
             _ => [a, b, c],
@@ -338,11 +361,25 @@ impl HardCasesSerretAndoyer {
             let separatrix = ((b - a) / metric.c_minus_z_of_cosine(sine)).sqrt() * sine;
             Posed { inertia, start: Start::Momenta { y0: Y0, p_x: 1.0, p_y: part * separatrix }, asked }
         };
+        let with_p_theta = |posed: Posed, p_theta: f64| match posed.start {
+            Start::Darboux { phi0, branch, .. } => {
+                Posed { start: Start::Darboux { phi0, clairaut: Clairaut::PTheta(p_theta), branch }, ..posed }
+            }
+            Start::Momenta { .. } => posed,
+        };
         Ok(match self.family {
             Family::Separatrix => darboux(PHI0, distance),
-            Family::SeparatrixMomenta => self.on_this_side(momenta((1.0 - distance).sqrt())),
-            Family::Cusp => momenta(distance),
-            Family::Equator => on_the_way(most * (1.0 - distance)),
+            Family::SeparatrixMomenta | Family::NearProlateMomenta => {
+                self.on_this_side(momenta((1.0 - distance).sqrt()))
+            }
+            Family::Cusp => {
+                let largest = 1.0 / metric.z(CUSP_PHI0).sqrt();
+                with_p_theta(darboux(CUSP_PHI0, 0.0), largest * (1.0 - distance))
+            }
+            Family::Equator => {
+                let p_theta = metric.equator_clairaut() * (1.0 - distance);
+                with_p_theta(on_the_way(most - (most + 1.0) * distance * (2.0 - distance)), p_theta)
+            }
             Family::StripEnd | Family::StripEndWithSeparatrix => {
                 let phi0 = -metric.half_width() * (1.0 - distance);
                 let jacobi = metric.jacobi_of_phi(phi0);

@@ -37,13 +37,12 @@ fn read(reader: &Reader<'_>) -> Result<(Metric, Start), PointError> {
 
 /// The answer in `f64`, or where that is in doubt in double-double.
 fn told(((metric, start), point): ((Metric, Start), Result<ConjugatePoint, NoPoint>)) -> Result<Answer, PointError> {
-    let inertia = [metric.a(), metric.b(), metric.c()];
-    if !in_doubt(inertia, start, &point) {
+    if !in_doubt(&metric, start, &point) {
         let calls = point.as_ref().map_or(0, |point| point.elliptic_calls);
         return written(point, CLOSED_FORM, "", calls);
     }
     let before = point.map_or(0, |point| point.elliptic_calls);
-    let long = first_conjugate_point_to_reference(inertia, start);
+    let long = first_conjugate_point_to_reference([metric.a(), metric.b(), metric.c()], start);
     let calls = before + long.as_ref().map_or(0, |point| point.elliptic_calls);
     written(long.map(rounded), CLOSED_FORM, LONG, calls)
 }

@@ -30,6 +30,10 @@ const COARSE_ORDER: usize = 4;
 /// Relative spread of the arguments at which the duplications of the first step end.
 const COARSE: f64 = 0.25;
 
+/// A cosine of the starting amplitude below this one is that of a turning point: its square, over which `T − 2K` goes, is below
+/// rounding beside every `m'` that is a number, and one over it is no number for long.
+const TURNING: f64 = 1e-140;
+
 /// What the start of an oscillating extremal says of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Oscillating<P> {
@@ -87,6 +91,7 @@ impl<P: Pack> Form<P> {
         let (numerator, denominator) = (sine * (square / ca).sqrt(), in_y.sqrt());
         let length = (numerator * numerator + denominator * denominator).sqrt();
         let moving = length.more(P::ZERO);
+        let cosine = denominator / length;
         Self {
             m: cb * to_equator / square,
             mc: ca * to_separatrix / square,
@@ -95,7 +100,7 @@ impl<P: Pack> Form<P> {
             nu: to_equator / to_minor_axis,
             // On the equator every phase is right: take the turning point.
             sine: P::select(moving, numerator / length, P::ONE),
-            cosine: P::select(moving, denominator / length, P::ZERO),
+            cosine: P::select(moving.and(cosine.more(P::from_f64(TURNING))), cosine, P::ZERO),
         }
     }
 }

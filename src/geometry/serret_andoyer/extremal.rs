@@ -148,7 +148,9 @@ impl<S: Real> Origin<S> {
         let ba = metric.b() - metric.a();
         let c_minus_z = metric.c_minus_z_of_cosine(angle.cosine);
         let square = ba * p_x * p_x;
-        let in_y = p_y * p_y * c_minus_z;
+        // What moves is not at rest, though its square underflows.
+        let least = if p_y == S::ZERO { S::ZERO } else { S::from_f64(f64::MIN_POSITIVE) };
+        let in_y = (p_y * p_y * c_minus_z).max(least);
         let sine_part = square * angle.sine.squared();
         // D = (B−A) p_x² cos²a − g with the common part p_y² (B−A) cos²a taken out: where p_y ~ p_x (B → C) nothing is lost.
         let both = (p_x - p_y) * (p_x + p_y);
@@ -210,7 +212,9 @@ impl<S: Real> Origin<S> {
         };
         // No f64 is equal to √μ(φ0): what one rounding of the inputs does counts as nothing, in every arithmetic.
         let rounding = S::from_f64(f64::EPSILON);
-        if in_y < -(S::from_f64(4.0) * rounding + angle_error(rounding)) {
+        // No number comes out where p_θ² overflows.
+        let allowed = -(S::from_f64(4.0) * rounding + angle_error(rounding));
+        if !in_y.is_finite() || in_y < allowed {
             let limit = S::ONE / metric.z_of_sine(angle.sine).sqrt();
             let (p_theta, limit, phi0) = (p_theta.to_f64(), limit.to_f64(), phi0.to_f64());
             return Err(StartError::ClairautTooLarge { p_theta, limit, phi0 });
@@ -411,7 +415,9 @@ pub(super) fn clairaut_energies<S: Real>(
             let over = |inertia: S| product_of_square_less_one(inertia, p);
             (to_separatrix, to_equator, to_minor_axis) = (over(b), -over(a), over(c));
             // What is left of rounding is of second order in ε.
-            let left = |inertia: S, energy: S| two * epsilon + S::from_f64(8.0) * epsilon * epsilon * (S::ONE + inertia * p * p) / energy.abs();
+            let left = |inertia: S, energy: S| {
+                two * epsilon + S::from_f64(8.0) * epsilon * epsilon * (S::ONE + inertia * p * p) / energy.abs()
+            };
             separatrix_error = left(b, to_separatrix);
             minor_axis_error = left(c, to_minor_axis);
         }

@@ -12,7 +12,7 @@
 //! A `p_θ` above `√μ(φ0)` by no more than one rounding of the inputs counts as equal here too: no `f64` is equal to it.
 
 use super::conjugate::{ConjugatePoint, NoConjugatePoint, first_conjugate_point};
-use super::extremal::{Extremal, Memory, Origin};
+use super::extremal::{Extremal, ExtremalClass, Memory, Origin};
 use super::lanes::NoPoint;
 use super::metric::Metric;
 use super::start::{Clairaut, Start, StartError};
@@ -24,6 +24,16 @@ const DOUBTFUL: f64 = 1e-3;
 
 /// Roundings by which φ0 and the half-width of the strip may differ and still be mistaken for each other.
 const EDGE: f64 = 16.0 * f64::EPSILON;
+
+/// Beyond it an angle has lost the digits that double-double would need.
+const MOST_TURNS: f64 = 1e15;
+
+/// Below this `m'` double-double has lost digits, and below the other δ so has `f64`.
+const LEAST_COMPLEMENT: f64 = 1e-240;
+const LEAST_DELTA: f64 = 1e-280;
+
+/// Exponents of two beyond which products of inertia and momenta may leave the range of `f64`.
+const FAR: i32 = 200;
 
 /// Exponents of the powers of two by which a problem is made of order one.
 #[derive(Clone, Copy)]
@@ -81,8 +91,9 @@ impl Scale {
         let back = |x: f64| libm::scalbn(x, -self.length);
         match (error, *start) {
             (StartError::InertiaOrder { .. }, _) => {
-                let [a, b, c] = inertia;
-                StartError::InertiaOrder { a, b, c }
+                // They are in order as they were given.
+                let [a, _, c] = inertia;
+                StartError::InertiaTooFarApart { a, c }
             }
             (StartError::OutOfScale { .. }, Start::Momenta { p_x, p_y, .. }) => StartError::OutOfScale { p_x, p_y },
             (StartError::OutsideStrip { half_width, .. }, Start::Darboux { phi0, .. }) => {
@@ -125,7 +136,16 @@ pub fn first_conjugate_point_to_reference(
     let scale = Scale::of(inertia[2], &start);
     let in_own_numbers = |error: StartError| NoPoint::Start(scale.error(error, inertia, &start));
     let metric = scale.metric(inertia).map_err(in_own_numbers)?;
+    if let Start::Momenta { y0, .. } = start {
+        if y0.abs() > MOST_TURNS {
+            return Err(StartError::TooManyTurns { y0 }.into());
+        }
+    }
     let extremal = Extremal::new(&metric, scale.start(start)).map_err(in_own_numbers)?;
+    let mc = extremal.complementary_parameter().to_f64();
+    if extremal.class() == ExtremalClass::Oscillating && mc < LEAST_COMPLEMENT {
+        return Err(StartError::TooNearSeparatrix { complementary_parameter: mc }.into());
+    }
     let point = first_conjugate_point(&extremal).map_err(|reason| match reason {
         NoConjugatePoint::Unphysical { p_theta } => {
             let exponent = match start {
@@ -148,21 +168,28 @@ pub fn first_conjugate_point_to_reference(
 
 /// Whether what was found in `f64` for this start is in doubt: a decision that rounding made, or an error estimate of an order that
 /// is not trusted. Then [`first_conjugate_point_to_reference`] knows.
-pub fn in_doubt(inertia: [f64; 3], start: Start, found: &Result<ConjugatePoint, NoPoint>) -> bool {
+pub fn in_doubt(metric: &Metric, start: Start, found: &Result<ConjugatePoint, NoPoint>) -> bool {
     match found {
         Ok(point) if !(point.error < DOUBTFUL && point.numbers_are_finite()) => return true,
         Err(NoPoint::Start(StartError::OutOfScale { .. })) => return true,
         Err(NoPoint::Extremal(NoConjugatePoint::NotSolved { .. })) => return true,
         _ => {}
     }
-    let Ok(metric) = Metric::new(inertia[0], inertia[1], inertia[2]) else { return false };
-    if let Start::Darboux { phi0, .. } = start {
-        if (phi0.abs() - metric.half_width()).abs() <= EDGE * metric.half_width() {
-            return true;
+    let far = |x: f64| x != 0.0 && libm::ilogb(x).abs() > FAR;
+    if far(metric.c()) {
+        return true;
+    }
+    match start {
+        // D is rounded once, from what was given: its sign is right. Only the strip ends where rounding says.
+        Start::Darboux { clairaut: Clairaut::Delta(delta), .. } if delta > 0.0 && delta < LEAST_DELTA => true,
+        Start::Darboux { phi0, .. } => (phi0.abs() - metric.half_width()).abs() <= EDGE * metric.half_width(),
+        Start::Momenta { p_x, p_y, .. } => {
+            if far(p_x.abs().max(p_y.abs())) {
+                return true;
+            }
+            let origin = Origin::new(metric, start, &mut Memory::default());
+            // A zero is in doubt too: its relative error is no number below. What was refused is not.
+            origin.is_ok_and(|origin| !(origin.energies.separatrix_error < DOUBTFUL))
         }
     }
-    // A refused start was in no doubt: it is refused beyond the allowance for rounding only.
-    let Ok(origin) = Origin::new(&metric, start, &mut Memory::default()) else { return false };
-    // A zero is in doubt too: its relative error is no number below.
-    !(origin.energies.separatrix_error < DOUBTFUL)
 }
