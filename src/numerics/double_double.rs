@@ -21,7 +21,7 @@ pub struct DoubleDouble {
 }
 
 /// `a + b` as a rounded sum and its exact error.
-fn two_sum(a: f64, b: f64) -> (f64, f64) {
+pub(super) fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let b_part = sum - a;
     (sum, (a - (sum - b_part)) + (b - b_part))
@@ -41,7 +41,7 @@ fn split(a: f64) -> (f64, f64) {
 }
 
 /// `a · b` as a rounded product and its exact error.
-fn two_product(a: f64, b: f64) -> (f64, f64) {
+pub(super) fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
     let (ah, al) = split(a);
     let (bh, bl) = split(b);
@@ -83,6 +83,11 @@ impl DoubleDouble {
             let (high, low) = two_product(multiple, *part);
             rest - Self { high, low }
         })
+    }
+
+    /// `self · 2^exponent`: exact, unless a part overflows or becomes subnormal.
+    pub fn times_power_of_two(self, exponent: i32) -> Self {
+        Self { high: libm::scalbn(self.high, exponent), low: libm::scalbn(self.low, exponent) }
     }
 
     /// Exact multiplication by a power of two.

@@ -4,6 +4,7 @@
 //! Every operation is either IEEE-exact (`+ − × ÷ √`, comparison, `abs`, `floor`) or comes from the pure-Rust `libm`
 //! crate: the platform's own `sin`, `exp`, … never reach a result, so that results have the same bits everywhere.
 
+use super::double_double::{two_product, two_sum};
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
@@ -67,6 +68,16 @@ pub trait Real:
     fn tanh(self) -> Self;
     /// Inverse hyperbolic sine.
     fn asinh(self) -> Self;
+
+    /// The rounded product, and what rounding took from it: with both a difference of products can be taken before it is rounded. Zero
+    /// where the scalar has digits to spare, and where the parts leave its range.
+    fn product_and_rest(self, other: Self) -> (Self, Self) {
+        (self * other, Self::ZERO)
+    }
+    /// The same of a difference.
+    fn difference_and_rest(self, other: Self) -> (Self, Self) {
+        (self - other, Self::ZERO)
+    }
 
     /// Sine.
     fn sin(self) -> Self {
@@ -134,6 +145,14 @@ impl Real for f64 {
     #[inline]
     fn floor(self) -> Self {
         f64::floor(self)
+    }
+    fn product_and_rest(self, other: Self) -> (Self, Self) {
+        let (product, rest) = two_product(self, other);
+        if rest.is_finite() { (product, rest) } else { (self * other, 0.0) }
+    }
+    fn difference_and_rest(self, other: Self) -> (Self, Self) {
+        let (difference, rest) = two_sum(self, -other);
+        if rest.is_finite() { (difference, rest) } else { (self - other, 0.0) }
     }
     fn exp(self) -> Self {
         libm::exp(self)

@@ -3,23 +3,30 @@
 use super::{Answer, Given, PointError, Reader, in_lanes};
 use crate::contract::work::Work;
 use crate::geometry::serret_andoyer::lanes::{NoPoint, first_conjugate_points};
+use crate::geometry::serret_andoyer::reference::{first_conjugate_point_to_reference, in_doubt};
 use crate::geometry::serret_andoyer::{
     Branch, Clairaut, ConjugatePoint, Extremal, Metric, NoConjugatePoint, Start, first_conjugate_point,
 };
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::real::Real;
 
 const METRIC: &str = "the metric is A=… B=… C=… with 0 < A < B < C";
+const CLOSED_FORM: &str = "closed form: the pole-free equation of the conjugate time (from eq. 15)";
+const LONG: &str = ", in double-double: rounding in f64 hides how near to a limit this start is";
 const ACCEPTED: &str =
     "a start is y0=… p_x=… p_y=…, or phi0=… with p_theta=… or delta=… and branch=ascending|descending";
 
 pub(super) fn answer(reader: &Reader<'_>) -> Result<Answer, PointError> {
     let (metric, start) = read(reader)?;
-    let point = Extremal::new(&metric, start).map_err(NoPoint::from);
-    told(point.and_then(|extremal| first_conjugate_point(&extremal).map_err(NoPoint::from)))
+    let extremal = Extremal::new(&metric, start).map_err(NoPoint::from);
+    let point = extremal.and_then(|extremal| first_conjugate_point(&extremal).map_err(NoPoint::from));
+    told(((metric, start), point))
 }
 
 /// Many rows at once: for each the answer that it has alone.
 pub(super) fn answers(readers: &[Reader<'_>]) -> Vec<Result<Answer, PointError>> {
-    in_lanes(readers, read, first_conjugate_points, told)
+    let solve = |starts: &[(Metric, Start)]| starts.iter().copied().zip(first_conjugate_points(starts)).collect();
+    in_lanes(readers, read, solve, told)
 }
 
 fn read(reader: &Reader<'_>) -> Result<(Metric, Start), PointError> {
@@ -28,14 +35,48 @@ fn read(reader: &Reader<'_>) -> Result<(Metric, Start), PointError> {
     Ok((metric, start(reader)?))
 }
 
-fn told(point: Result<ConjugatePoint, NoPoint>) -> Result<Answer, PointError> {
+/// The answer in `f64`, or where that is in doubt in double-double.
+fn told(((metric, start), point): ((Metric, Start), Result<ConjugatePoint, NoPoint>)) -> Result<Answer, PointError> {
+    if !in_doubt(&metric, start, &point) {
+        let calls = point.as_ref().map_or(0, |point| point.elliptic_calls);
+        return written(point, CLOSED_FORM, "", calls);
+    }
+    let before = point.map_or(0, |point| point.elliptic_calls);
+    let long = first_conjugate_point_to_reference([metric.a(), metric.b(), metric.c()], start);
+    let calls = before + long.as_ref().map_or(0, |point| point.elliptic_calls);
+    written(long.map(rounded), CLOSED_FORM, LONG, calls)
+}
+
+/// Rounds to `f64`, which may be half an ε of the error.
+fn rounded(point: ConjugatePoint<DoubleDouble>) -> ConjugatePoint {
+    let error = point.error.to_f64() + 0.5 * f64::EPSILON;
+    ConjugatePoint {
+        t1: point.t1.to_f64(),
+        x: point.x.to_f64(),
+        y: point.y.to_f64(),
+        theta: point.theta.to_f64(),
+        phi: point.phi.to_f64(),
+        lower_bound: point.lower_bound.to_f64(),
+        error,
+        iterations: point.iterations,
+        elliptic_calls: point.elliptic_calls,
+    }
+}
+
+fn written(
+    point: Result<ConjugatePoint, NoPoint>,
+    route: &str,
+    precision: &str,
+    elliptic_calls: usize,
+) -> Result<Answer, PointError> {
+    let elliptic_calls = elliptic_calls as u64;
     match point {
         Ok(point) => Ok(Answer {
             numbers: [point.t1, point.x, point.y, point.theta, point.phi, point.lower_bound].map(Some).to_vec(),
             reason: None,
             error: Some(point.error),
-            route: "closed form: the pole-free equation of the conjugate time (from eq. 15)".into(),
-            work: Work { elliptic_calls: point.elliptic_calls as u64, roots_solved: 1, rows: 1, ..Work::default() },
+            route: format!("{route}{precision}"),
+            work: Work { elliptic_calls, roots_solved: 1, rows: 1, ..Work::default() },
         }),
         Err(NoPoint::Start(error)) => Err(PointError::Refused(error.to_string())),
         Err(NoPoint::Extremal(error @ NoConjugatePoint::NotSolved { .. })) => {
@@ -45,8 +86,8 @@ fn told(point: Result<ConjugatePoint, NoPoint>) -> Result<Answer, PointError> {
             numbers: vec![None; 6],
             reason: Some(reason.to_string()),
             error: None,
-            route: "classification of the trajectory by xi1".into(),
-            work: Work { rows: 1, ..Work::default() },
+            route: format!("classification of the trajectory by xi1{precision}"),
+            work: Work { elliptic_calls, rows: 1, ..Work::default() },
         }),
     }
 }

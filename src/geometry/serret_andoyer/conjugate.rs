@@ -59,6 +59,13 @@ pub struct ConjugatePoint<S: Real = f64> {
     pub elliptic_calls: usize,
 }
 
+impl<S: Real> ConjugatePoint<S> {
+    /// Whether no number of it is infinite or "not a number".
+    pub fn numbers_are_finite(&self) -> bool {
+        [self.t1, self.x, self.y, self.phi, self.lower_bound, self.error].into_iter().all(S::is_finite)
+    }
+}
+
 /// Why an extremal has no conjugate point.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum NoConjugatePoint {

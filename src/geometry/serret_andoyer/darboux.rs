@@ -32,7 +32,9 @@ impl<S: Real> FromEquator<S> {
         if sine_y != S::ZERO && is_odd(half_turns) != (sine_y < S::ZERO) {
             half_turns = if quotient - half_turns > half { half_turns + S::ONE } else { half_turns - S::ONE };
         }
-        if is_odd(half_turns) {
+        // Beyond 2^53 half turns parity is lost, and the sign is not.
+        let odd = if sine_y == S::ZERO { is_odd(half_turns) } else { sine_y < S::ZERO };
+        if odd {
             Self { half_turns, sine: cosine_y, cosine: -sine_y }
         } else {
             Self { half_turns, sine: -cosine_y, cosine: sine_y }

@@ -30,6 +30,10 @@ const COARSE_ORDER: usize = 4;
 /// Relative spread of the arguments at which the duplications of the first step end.
 const COARSE: f64 = 0.25;
 
+/// A cosine of the starting amplitude below this one is that of a turning point: its square, over which `T − 2K` goes, is below
+/// rounding beside every `m'` that is a number, and one over it is no number for long.
+const TURNING: f64 = 1e-140;
+
 /// What the start of an oscillating extremal says of it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Oscillating<P> {
@@ -40,7 +44,7 @@ pub(super) struct Oscillating<P> {
     pub(super) to_separatrix: P,
     pub(super) to_equator: P,
     pub(super) to_minor_axis: P,
-    /// Relative errors of `D`, `X3` and `g`.
+    /// Relative errors of `D`, `X3` and `g`; where `g = 0`, in place of its own that of `cos² am v0`.
     pub(super) separatrix_error: P,
     pub(super) minor_axis_error: P,
     pub(super) in_y_error: P,
@@ -87,6 +91,7 @@ impl<P: Pack> Form<P> {
         let (numerator, denominator) = (sine * (square / ca).sqrt(), in_y.sqrt());
         let length = (numerator * numerator + denominator * denominator).sqrt();
         let moving = length.more(P::ZERO);
+        let cosine = denominator / length;
         Self {
             m: cb * to_equator / square,
             mc: ca * to_separatrix / square,
@@ -95,7 +100,7 @@ impl<P: Pack> Form<P> {
             nu: to_equator / to_minor_axis,
             // On the equator every phase is right: take the turning point.
             sine: P::select(moving, numerator / length, P::ONE),
-            cosine: P::select(moving, denominator / length, P::ZERO),
+            cosine: P::select(moving.and(cosine.more(P::from_f64(TURNING))), cosine, P::ZERO),
         }
     }
 }
@@ -363,8 +368,9 @@ impl<P: Pack> Equation<P> {
         let of_start = half * e.in_y_error + P::from_f64(3.0) * P::EPSILON;
         let noise = rounding * (start.p.abs() + self.n + self.n) * over;
         let own = (d_slope * of_d + start_slope * of_start + noise) / phase;
-        // At a turning point only the half period counts.
-        P::select(turning, (k_slope / k).abs() * of_d, own) + of_speed + rounding
+        // At a turning point only the half period counts, and that it is one: beside it `T − 2K = 2N cos² am v0/m'`.
+        let aside = self.n / (mc * k) * e.in_y_error.min(P::ONE);
+        P::select(turning, (k_slope / k).abs() * of_d + aside, own) + of_speed + rounding
     }
 
     /// The time, and the phase where the extremal is then, from the equation solved.

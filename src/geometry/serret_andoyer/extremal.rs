@@ -58,7 +58,7 @@ pub(super) struct Energies<S: Real> {
     pub(super) separatrix_error: S,
     /// Relative error of `X3`.
     pub(super) minor_axis_error: S,
-    /// Relative error of `g`.
+    /// Relative error of `g`; where `g = 0`, the error of `cos² am v0 = g (X1 + X3)/(X1 X3)`.
     pub(super) in_y_error: S,
 }
 
@@ -133,6 +133,7 @@ impl<S: Real> Origin<S> {
 
     /// Errors: those of [`Extremal::new`].
     pub(super) fn new(metric: &Metric<S>, start: Start<S>, memory: &mut Memory<S>) -> Result<Self, StartError> {
+        start.check_finite()?;
         match start {
             Start::Momenta { y0, p_x, p_y } => Self::from_momenta(metric, [y0, p_x, p_y], memory),
             Start::Darboux { phi0, clairaut, branch } => Self::from_darboux(metric, phi0, clairaut, branch, memory),
@@ -140,7 +141,6 @@ impl<S: Real> Origin<S> {
     }
 
     fn from_momenta(metric: &Metric<S>, [y0, p_x, p_y]: [S; 3], memory: &mut Memory<S>) -> Result<Self, StartError> {
-        check_finite([("y0", y0), ("p_x", p_x), ("p_y", p_y)])?;
         if p_x == S::ZERO && p_y == S::ZERO {
             return Err(StartError::NoMomentum);
         }
@@ -148,21 +148,27 @@ impl<S: Real> Origin<S> {
         let ba = metric.b() - metric.a();
         let c_minus_z = metric.c_minus_z_of_cosine(angle.cosine);
         let square = ba * p_x * p_x;
-        let in_y = p_y * p_y * c_minus_z;
-        let (cosine_part, sine_part) = (square * angle.cosine.squared(), square * angle.sine.squared());
-        let to_separatrix = cosine_part - in_y;
+        // What moves is not at rest, though its square underflows.
+        let least = if p_y == S::ZERO { S::ZERO } else { S::from_f64(f64::MIN_POSITIVE) };
+        let in_y = (p_y * p_y * c_minus_z).max(least);
+        let sine_part = square * angle.sine.squared();
+        // D = (B−A) p_x² cos²a − g with the common part p_y² (B−A) cos²a taken out: where p_y ~ p_x (B → C) nothing is lost.
+        let both = (p_x - p_y) * (p_x + p_y);
+        let (kept, taken) = (ba * angle.cosine.squared() * both, p_y * p_y * (metric.c() - metric.b()));
+        let to_separatrix = kept - taken;
         let to_equator = sine_part + in_y;
-        let to_minor_axis = (p_x - p_y) * (p_x + p_y) * c_minus_z;
+        let to_minor_axis = both * c_minus_z;
         let epsilon = S::EPSILON;
-        let three = S::from_f64(3.0);
+        let (three, four) = (S::from_f64(3.0), S::from_f64(4.0));
         let energies = Energies {
             to_separatrix,
             to_equator,
             to_minor_axis,
             in_y,
-            separatrix_error: three * epsilon * (cosine_part + in_y) / to_separatrix.abs(),
+            separatrix_error: four * epsilon * (kept.abs() + taken) / to_separatrix.abs(),
             minor_axis_error: three * epsilon,
-            in_y_error: three * epsilon,
+            // A vanishing p_y is exact.
+            in_y_error: if in_y > S::ZERO { three * epsilon } else { S::ZERO },
         };
         let energy = S::from_f64(0.5) * (p_x * p_x * metric.z_of_sine(angle.sine) + in_y);
         // Times ε, so that parts of the energy are no denormal numbers either.
@@ -181,11 +187,6 @@ impl<S: Real> Origin<S> {
         memory: &mut Memory<S>,
     ) -> Result<Self, StartError> {
         let (a, b) = (metric.a(), metric.b());
-        let (name, value) = match clairaut {
-            Clairaut::PTheta(p) => ("p_theta", p),
-            Clairaut::Delta(delta) => ("delta", delta),
-        };
-        check_finite([("phi0", phi0), (name, value), (name, value)])?;
         if phi0.abs() >= metric.half_width() {
             let (phi0, half_width) = (phi0.to_f64(), metric.half_width().to_f64());
             return Err(StartError::OutsideStrip { phi0, half_width });
@@ -200,25 +201,32 @@ impl<S: Real> Origin<S> {
         let (cosine_part, sine_part) = (square * cosine.squared(), square * angle.sine.squared());
         // g = p_φ² = 1 − p_θ² Z, by the difference whose terms are smaller.
         let two = S::from_f64(2.0);
-        let phase_error = two * epsilon * (metric.alpha() * phi0).abs() * jacobi.dn;
-        let angle_error = square * (two * (angle.sine * cosine).abs() + phase_error) * phase_error;
-        let (mut in_y, mut in_y_error) = if cosine < angle.sine.abs() {
-            let own = energies.separatrix_error * energies.to_separatrix.abs();
-            (cosine_part - energies.to_separatrix, own + two * epsilon * (cosine_part + energies.to_separatrix.abs()))
-        } else {
-            let own = two * epsilon * (S::ONE + a * p_theta * p_theta);
-            (energies.to_equator - sine_part, own + two * epsilon * sine_part)
+        let angle_error = |epsilon: S| {
+            let phase = S::from_f64(3.0) * epsilon * (metric.alpha() * phi0).abs() * jacobi.dn;
+            square * (two * (angle.sine * cosine).abs() + phase) * phase
         };
-        in_y_error += angle_error;
-        if in_y < S::ZERO {
-            if in_y < -in_y_error {
-                let limit = S::ONE / metric.z_of_sine(angle.sine).sqrt();
-                let (p_theta, limit, phi0) = (p_theta.to_f64(), limit.to_f64(), phi0.to_f64());
-                return Err(StartError::ClairautTooLarge { p_theta, limit, phi0 });
-            }
-            in_y = S::ZERO;
+        let (in_y, terms) = if cosine < angle.sine.abs() {
+            (cosine_part - energies.to_separatrix, cosine_part + energies.to_separatrix.abs())
+        } else {
+            (energies.to_equator - sine_part, energies.to_equator.abs() + sine_part)
+        };
+        // No f64 is equal to √μ(φ0): what one rounding of the inputs does counts as nothing, in every arithmetic.
+        let rounding = S::from_f64(f64::EPSILON);
+        // No number comes out where p_θ² overflows.
+        let allowed = -(S::from_f64(4.0) * rounding + angle_error(rounding));
+        if !in_y.is_finite() || in_y < allowed {
+            let limit = S::ONE / metric.z_of_sine(angle.sine).sqrt();
+            let (p_theta, limit, phi0) = (p_theta.to_f64(), limit.to_f64(), phi0.to_f64());
+            return Err(StartError::ClairautTooLarge { p_theta, limit, phi0 });
         }
-        in_y_error = if in_y > S::ZERO { in_y_error / in_y } else { S::ZERO };
+        let in_y = in_y.max(S::ZERO);
+        let error = two * epsilon * terms + angle_error(epsilon);
+        let in_y_error = if in_y > S::ZERO {
+            error / in_y
+        } else {
+            let (to_equator, to_minor_axis) = (energies.to_equator.abs(), energies.to_minor_axis.abs());
+            error * (to_equator + to_minor_axis) / (to_equator * to_minor_axis)
+        };
         // Exactly X1 ≥ g ≥ 0; rounding of A p_θ² = 1 may have said otherwise.
         let to_equator = energies.to_equator.max(in_y);
         let energies = Energies { in_y, in_y_error, to_equator, ..energies };
@@ -385,11 +393,11 @@ impl<S: Real> Extremal<S> {
     }
 }
 
-fn check_finite<S: Real>(inputs: [(&'static str, S); 3]) -> Result<(), StartError> {
-    match inputs.into_iter().find(|(_, value)| !value.is_finite()) {
-        Some((name, value)) => Err(StartError::NotFinite { name, value: value.to_f64() }),
-        None => Ok(()),
-    }
+/// `I p² − 1`, rounded once: the products' own roundings are kept until the difference is taken.
+fn product_of_square_less_one<S: Real>(inertia: S, p: S) -> S {
+    let (square, square_rest) = p.product_and_rest(p);
+    let (product, product_rest) = inertia.product_and_rest(square);
+    (product - S::ONE) + (product_rest + inertia * square_rest)
 }
 
 /// `p_θ` and the energies at arc length (`2h = 1`) of a Clairaut constant; `in_y` is left zero.
@@ -404,12 +412,14 @@ pub(super) fn clairaut_energies<S: Real>(
     match clairaut {
         Clairaut::PTheta(p) => {
             p_theta = p;
-            let square = p * p;
-            to_separatrix = b * square - S::ONE;
-            to_equator = S::ONE - a * square;
-            to_minor_axis = c * square - S::ONE;
-            separatrix_error = two * epsilon * (S::ONE + b * square) / to_separatrix.abs();
-            minor_axis_error = two * epsilon * (S::ONE + c * square) / to_minor_axis.abs();
+            let over = |inertia: S| product_of_square_less_one(inertia, p);
+            (to_separatrix, to_equator, to_minor_axis) = (over(b), -over(a), over(c));
+            // What is left of rounding is of second order in ε.
+            let left = |inertia: S, energy: S| {
+                two * epsilon + S::from_f64(8.0) * epsilon * epsilon * (S::ONE + inertia * p * p) / energy.abs()
+            };
+            separatrix_error = left(b, to_separatrix);
+            minor_axis_error = left(c, to_minor_axis);
         }
         Clairaut::Delta(delta) => {
             if delta < -S::ONE {
@@ -417,7 +427,10 @@ pub(super) fn clairaut_energies<S: Real>(
             }
             p_theta = ((S::ONE + delta) / b).sqrt();
             to_separatrix = delta;
-            to_equator = ((b - a) - a * delta) / b;
+            // Near the equator both are equal: what rounding took from each decides.
+            let (gap, gap_rest) = b.difference_and_rest(a);
+            let (lost, lost_rest) = a.product_and_rest(delta);
+            to_equator = ((gap - lost) + (gap_rest - lost_rest)) / b;
             to_minor_axis = ((c - b) + c * delta) / b;
             separatrix_error = S::ZERO;
             minor_axis_error = two * epsilon * ((c - b) + c * delta.abs()) / (b * to_minor_axis.abs());

@@ -14,6 +14,7 @@ pub mod lanes;
 pub mod metric;
 pub mod path;
 pub mod period;
+pub mod reference;
 pub mod start;
 
 pub use conjugate::{ConjugatePoint, NoConjugatePoint, first_conjugate_point};

@@ -48,6 +48,25 @@ pub enum Start<S: Real = f64> {
     },
 }
 
+impl<S: Real> Start<S> {
+    /// Errors: [`StartError::NotFinite`] names the first input that is infinite or not a number.
+    pub fn check_finite(&self) -> Result<(), StartError> {
+        let inputs = match *self {
+            Self::Momenta { y0, p_x, p_y } => [("y0", y0), ("p_x", p_x), ("p_y", p_y)],
+            Self::Darboux { phi0, clairaut: Clairaut::PTheta(p), .. } => {
+                [("phi0", phi0), ("p_theta", p), ("p_theta", p)]
+            }
+            Self::Darboux { phi0, clairaut: Clairaut::Delta(delta), .. } => {
+                [("phi0", phi0), ("delta", delta), ("delta", delta)]
+            }
+        };
+        match inputs.into_iter().find(|(_, value)| !value.is_finite()) {
+            Some((name, value)) => Err(StartError::NotFinite { name, value: value.to_f64() }),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Why a metric or a start is refused.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum StartError {
@@ -72,6 +91,12 @@ pub enum StartError {
     /// Both momenta vanish: nothing moves.
     #[error("p_x and p_y are both zero: nothing moves; give one of them another value")]
     NoMomentum,
+    /// So many turns that sine and cosine are not known with more digits.
+    #[error("y0 = {y0} hides how near to a limit this start is: take whole turns away (y0 counts modulo 2 pi)")]
+    TooManyTurns {
+        /// `y0`.
+        y0: f64,
+    },
     /// The squares of the momenta leave the range of the numbers.
     #[error("p_x = {p_x}, p_y = {p_y}: their squares overflow or underflow; scale time, since t1 goes with 1/momentum")]
     OutOfScale {
@@ -79,6 +104,28 @@ pub enum StartError {
         p_x: f64,
         /// `p_y`.
         p_y: f64,
+    },
+    /// The inertia, made of order one, leaves the range of the numbers.
+    #[error("A = {a} and C = {c} leave the range of the numbers together: their ratio is too far from one")]
+    InertiaTooFarApart {
+        /// A.
+        a: f64,
+        /// C.
+        c: f64,
+    },
+    /// `m'` so small that its digits, and the square of `sc`, leave the range of the numbers.
+    #[error(
+        "m' = {complementary_parameter:e}, so near to the separatrix that the numbers end: t1 grows with -ln m' from there on"
+    )]
+    TooNearSeparatrix {
+        /// `m'`.
+        complementary_parameter: f64,
+    },
+    /// The answer leaves the range of the numbers.
+    #[error("t1 = 2^{log2} is no number here: scale the inertia or the momenta, since t1 goes with their inverse")]
+    TimeOutOfScale {
+        /// The binary logarithm of `t1`.
+        log2: f64,
     },
     /// φ0 outside the strip.
     #[error("|phi0| < K(k)/alpha = {half_width} is needed, found phi0 = {phi0}")]

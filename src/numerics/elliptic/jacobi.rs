@@ -12,6 +12,9 @@ use super::complete::{MAX_MEAN_STEPS, complete_e};
 use super::incomplete::{delta_squared, incomplete_e_sc};
 use crate::numerics::real::Real;
 
+/// Below this argument `sn u = am u = u` and `cn u = dn u = 1` to every digit, and the square of `cs u` would overflow.
+const TINY: f64 = 1e-100;
+
 /// The values of Jacobi's functions at one argument.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Jacobi<S: Real = f64> {
@@ -38,6 +41,9 @@ impl<S: Real> Jacobi<S> {
             let nan = S::from_f64(f64::NAN);
             return Self { sn: nan, cn: nan, dn: nan, am: nan };
         }
+        if u.abs() < S::from_f64(TINY) {
+            return Self { sn: u, cn: S::ONE, dn: S::ONE, am: u };
+        }
         let half = S::from_f64(0.5);
         let mut a = S::ONE;
         let mut b = mc.sqrt();
@@ -60,10 +66,6 @@ impl<S: Real> Jacobi<S> {
         // The phase of the circular functions: the mean times u, in the same quadrant as the amplitude.
         let phase = c * u;
         let (sine, cosine) = phase.sin_cos();
-        if sine == S::ZERO {
-            // u = 0, the only argument whose phase is a multiple of π in floating point.
-            return Self { sn: sine, cn: cosine, dn: S::ONE, am: phase };
-        }
         let mut t = cosine / sine;
         c *= t;
         for step in (0..=last).rev() {
