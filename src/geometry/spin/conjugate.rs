@@ -9,15 +9,34 @@
 
 use super::extremal::{Extremal, hypotenuse};
 use super::phase::State;
+use super::posed::{Limits, Posed, Scale};
+use super::reference::{first_conjugate_point_to_reference, nth_conjugate_time_to_reference};
 use super::solve::{PhaseRoot, Quantity, SpinError, solve};
 use super::start::Start;
-use crate::numerics::pack::Pack;
+use crate::numerics::pack::{Mask, Pack};
 use crate::numerics::real::Real;
 
 /// A coordinate below this many ε (in size) is rounding: near the meridian `r3` then has no sign of its own.
 const COORDINATE_ROUNDING: f64 = 32.0;
 /// Relative step of the difference quotients that estimate the condition number.
 const CONDITION_STEP: f64 = 1e-6;
+
+/// Above this error of the point, in radians, `f64` does not tell where it is, and double-double goes on. (At p_θ = 0 that is k
+/// above 1e4 or so; elsewhere it is reached next to a vertical tangent of `t1(p_θ)`.)
+const UNTOLD: f64 = 1e-6;
+
+/// Returns to the equator from which on no integration is offered as a second route: in `f64` it would lose more digits than
+/// there are in their number, and take a second.
+const TOO_MANY_TO_INTEGRATE: u32 = 100_000;
+
+/// The arithmetic in which a result was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// 53 bits.
+    F64,
+    /// 106 bits, rounded at the end.
+    DoubleDouble,
+}
 
 /// The first conjugate point of an extremal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,8 +55,51 @@ pub struct ConjugatePoint {
     pub iterations: u32,
     /// Carlson functions called.
     pub elliptic_calls: u32,
-    /// How often the extremal has returned to the equator by then: `floor(λ/π)`.
+    /// How often the extremal has returned to the equator by then: `floor(λ/π)`, or `u32::MAX` where that is more.
     pub crossings: u32,
+    /// The arithmetic that was needed.
+    pub arithmetic: Arithmetic,
+}
+
+impl ConjugatePoint {
+    /// How the point was found, in words, and why there is no second route to it where there is none.
+    pub fn route(&self) -> String {
+        let mut route = "closed form: the only solution of Theta = pi (monotone phase)".to_owned();
+        if self.arithmetic == Arithmetic::DoubleDouble {
+            route.push_str(", in double-double arithmetic: f64 does not tell where the point is");
+        }
+        if self.crossings >= TOO_MANY_TO_INTEGRATE {
+            let (least, crossings) = (if self.crossings == u32::MAX { "at least " } else { "" }, self.crossings);
+            route.push_str(&format!(
+                "; no second route: {least}{crossings} returns to the equator are too many to integrate"
+            ));
+        }
+        route
+    }
+
+    /// How far rounding may have moved the point, in R³: by the error of the time (the speed is at most `max(1, 1/k)`), and by that of
+    /// the coordinates.
+    pub fn place_error(&self, start: &Start) -> f64 {
+        self.error * self.t1 * (1.0 / start.k()).max(1.0) + COORDINATE_ROUNDING * f64::EPSILON
+    }
+
+    /// Whether the error of the time leaves it known where the point is. (The point moves with a speed of at most 1 for `k ≥ 1`;
+    /// for `k < 1` times are short.)
+    pub(super) fn is_told(&self) -> bool {
+        self.error * self.t1.max(1.0) <= UNTOLD
+    }
+
+    /// The point of a start whose own is smaller: time, r2 and r3 multiplied.
+    pub(super) fn scaled(mut self, scale: Scale) -> Self {
+        if scale != Scale::NONE {
+            self.t1 *= scale.time;
+            self.r[1] *= scale.time;
+            self.r[2] *= scale.along;
+            self.theta = libm::atan2(self.r[2], self.r[0]);
+            self.phi = libm::atan2(libm::hypot(self.r[0], self.r[2]), self.r[1]);
+        }
+        self
+    }
 }
 
 /// The cut point of an extremal: its first return to the equator.
@@ -57,6 +119,18 @@ pub struct CutPoint {
     pub elliptic_calls: u32,
 }
 
+impl CutPoint {
+    /// As [`ConjugatePoint::scaled`].
+    pub(super) fn scaled(mut self, scale: Scale) -> Self {
+        if scale != Scale::NONE {
+            self.t_cut *= scale.time;
+            self.r[2] *= scale.along;
+            self.theta = libm::atan2(self.r[2], self.r[0]);
+        }
+        self
+    }
+}
+
 /// The extremal's constants for a start, mirror image left out.
 pub fn extremal(start: &Start) -> Extremal<f64> {
     Extremal::new(start.k(), start.p_theta().abs())
@@ -65,22 +139,32 @@ pub fn extremal(start: &Start) -> Extremal<f64> {
 /// The first conjugate point: the only instant at which the monotone phase Θ is π, so no root can be skipped.
 ///
 /// Domain: every [`Start`]. Guarantee: `t1` to a few ε relative times the problem's condition number, the point to a
-/// few ε absolutely beyond what `t1` moves it; `error` is a bound. Special cases: `p_θ = 0` is an ordinary start (θ is
-/// then exactly 0 or π); for `p_θ < 0` the mirror image `θ → −θ`. Errors: [`SpinError`].
+/// few ε absolutely beyond what `t1` moves it; `error` is a bound. Where the error in `f64` leaves the point unknown by more than a
+/// millionth, and for k above 1e7, double-double goes on by itself; `arithmetic` says so. Special cases: `p_θ = 0` is an ordinary start (θ is then exactly 0
+/// or π); for `p_θ < 0` the mirror image `θ → −θ`; k below 1e-12 with `p_θ ≠ 0` by the limit `k → 0`, which is right to 1e-18. Errors:
+/// [`SpinError`], where double-double loses the point too.
 pub fn first_conjugate_point(start: &Start) -> Result<ConjugatePoint, SpinError> {
-    let extremal = extremal(start);
-    let root = solve(&extremal, Quantity::Phase, 1.0)?;
-    Ok(point_at(start.mirror(), &extremal, &root).member(0))
+    if Limits::F64.is_beyond(start) {
+        return first_conjugate_point_to_reference(start);
+    }
+    let posed = Posed::<f64>::new(start, Limits::F64);
+    let found = solve(&posed.extremal, Quantity::Phase, 1.0);
+    let point = found.map(|root| point_at(posed.mirror, &posed.extremal, &root).member(0).scaled(posed.scale));
+    match point {
+        Ok(point) if point.is_told() => Ok(point),
+        Ok(_) | Err(SpinError::PrecisionLost { .. }) => first_conjugate_point_to_reference(start),
+        Err(other) => Err(other),
+    }
 }
 
 /// [`ConjugatePoint`] over packs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Points<S> {
-    t1: S,
-    theta: S,
+    pub(super) t1: S,
+    pub(super) theta: S,
     phi: S,
     r: [S; 3],
-    error: S,
+    pub(super) error: S,
     iterations: S,
     elliptic_calls: S,
     crossings: S,
@@ -100,6 +184,7 @@ impl<S: Pack> Points<S> {
             iterations: rounded(self.iterations) as u32,
             elliptic_calls: rounded(self.elliptic_calls) as u32,
             crossings: rounded(self.crossings) as u32,
+            arithmetic: Arithmetic::F64,
         }
     }
 }
@@ -108,9 +193,11 @@ impl<S: Pack> Points<S> {
 #[inline(always)]
 pub(super) fn point_at<S: Pack>(mirror: S, extremal: &Extremal<S>, root: &PhaseRoot<S>) -> Points<S> {
     let r = conjugate_position(mirror, extremal, root);
+    // Where r3 of p ≠ 0 is below the smallest number, θ is still on its side of π.
+    let at_pi = r[2].equals(S::ZERO).and(r[0].less(S::ZERO)).and(extremal.p.more(S::ZERO));
     Points {
         t1: root.t,
-        theta: r[2].atan2(r[0]),
+        theta: S::select(at_pi, mirror * S::PI, r[2].atan2(r[0])),
         phi: hypotenuse(r[0].abs(), r[2].abs()).atan2(r[1]),
         r,
         error: root.error,
@@ -121,8 +208,13 @@ pub(super) fn point_at<S: Pack>(mirror: S, extremal: &Extremal<S>, root: &PhaseR
 }
 
 /// The j-th conjugate time, `j ≥ 1`: where `Θ = jπ`. Errors: [`SpinError`], also for `j = 0`.
+///
+/// In double-double where `f64` loses the point.
 pub fn nth_conjugate_time(start: &Start, j: u32) -> Result<f64, SpinError> {
-    Ok(solve(&extremal(start), Quantity::Phase, f64::from(j))?.t)
+    match solve(&extremal(start), Quantity::Phase, f64::from(j)) {
+        Err(SpinError::PrecisionLost { .. }) => nth_conjugate_time_to_reference(start, j),
+        found => Ok(found?.t),
+    }
 }
 
 /// How many conjugate times lie in `(0, t]`: `floor(Θ(t)/π)`.
@@ -139,7 +231,8 @@ pub fn conjugate_count(start: &Start, t: f64) -> Result<u32, SpinError> {
 ///
 /// Domain: every [`Start`]. Guarantee: as for [`first_conjugate_point`].
 pub fn cut_point(start: &Start) -> Result<CutPoint, SpinError> {
-    cut_point_of(start.mirror(), &extremal(start))
+    let posed = Posed::<f64>::new(start, Limits::F64);
+    Ok(cut_point_of(posed.mirror, &posed.extremal)?.scaled(posed.scale))
 }
 
 /// [`cut_point`] in any scalar, rounded to `f64`.
@@ -176,6 +269,16 @@ pub(super) fn position_of<S: Real>(mirror: S, extremal: &Extremal<S>, t: S) -> R
     let r = rotated(extremal, h, sign * sine, sign * cosine);
     let moved = shifted(extremal, h, r, late);
     Ok([moved[0], moved[1], mirror * moved[2]])
+}
+
+/// A bound of the rounding error of [`position`], in R³: that of the angle λ and of the time.
+///
+/// Domain and errors as for [`position`].
+pub fn position_error(start: &Start, t: f64) -> Result<f64, SpinError> {
+    let extremal = extremal(start);
+    let (state, _) = state_at(&extremal, t)?;
+    let speed = (1.0 / start.k()).max(1.0);
+    Ok(state.lambda_rounding(state.half_turns) + f64::EPSILON * (4.0 * speed * t + COORDINATE_ROUNDING))
 }
 
 /// The momentum `h(t)` in so(3)*.

@@ -5,8 +5,9 @@
 //!
 //! Not known here: when double-double is needed (`conjugate` decides that by its own error estimate).
 
-use super::conjugate::{ConjugatePoint, CutPoint, cut_point_of, point_at, position_of};
+use super::conjugate::{Arithmetic, ConjugatePoint, CutPoint, cut_point_of, point_at, position_of};
 use super::extremal::Extremal;
+use super::posed::{Limits, Posed};
 use super::solve::{Quantity, SpinError, solve};
 use super::start::Start;
 use crate::numerics::double_double::DoubleDouble;
@@ -14,64 +15,82 @@ use crate::numerics::real::Real;
 
 /// What rounding to `f64` adds to a relative error.
 const ROUNDING: f64 = 0.5 * f64::EPSILON;
-/// Above this `p/max(1, k)` the extremal is that of its limit `p → ∞` to 60 digits, where `p t1` and `p r2` depend on k alone. Squares of much
-/// larger numbers leave the range of the arithmetic.
-const LIMIT_MOMENTUM: f64 = 1e30;
+/// The estimates of rounding count operations that err by half an ε; those of double-double err by up to 10·2^-106, which is 2.5 of its ε,
+/// and its elementary functions by up to 16. Errors of up to 8 estimates were seen, next to a vertical tangent.
+const LOOSE_ROUNDING: f64 = 32.0;
 
 /// The first conjugate point, as [`super::conjugate::first_conjugate_point`], right to half an ε.
 ///
 /// Domain: every [`Start`]. Guarantee: `error` bounds the difference of `t1` to the exact answer for the inputs as given, about half an ε
 /// where the times can be told at all. Errors: [`SpinError`], where even this arithmetic loses the point.
 pub fn first_conjugate_point_to_reference(start: &Start) -> Result<ConjugatePoint, SpinError> {
-    let Posed { extremal, scale, mirror } = Posed::new(start);
+    let Posed { extremal, scale, mirror } = posed(start);
     let root = solve(&extremal, Quantity::Phase, DoubleDouble::ONE)?;
-    let mut point = point_at(mirror, &extremal, &root).member(0);
-    point.t1 *= scale;
-    point.r[1] *= scale;
-    point.error += ROUNDING;
+    let mut point = point_at(mirror, &extremal, &root).member(0).scaled(scale);
+    point.arithmetic = Arithmetic::DoubleDouble;
+    point.error = LOOSE_ROUNDING * point.error + ROUNDING;
     Ok(point)
 }
 
 /// The cut point, as [`super::conjugate::cut_point`], right to half an ε. Domain and errors: as there.
 pub fn cut_point_to_reference(start: &Start) -> Result<CutPoint, SpinError> {
-    let Posed { extremal, scale, mirror } = Posed::new(start);
-    let mut point = cut_point_of(mirror, &extremal)?;
-    point.t_cut *= scale;
-    point.error += ROUNDING;
+    let Posed { extremal, scale, mirror } = posed(start);
+    let mut point = cut_point_of(mirror, &extremal)?.scaled(scale);
+    point.error = LOOSE_ROUNDING * point.error + ROUNDING;
     Ok(point)
 }
 
 /// The point `r(t)`, as [`super::conjugate::position`], each coordinate right to half an ε of one. Domain and errors: as there.
 pub fn position_to_reference(start: &Start, t: f64) -> Result<[f64; 3], SpinError> {
-    let Posed { extremal, scale, mirror } = Posed::new(start);
-    let [r1, r2, r3] = position_of(mirror, &extremal, DoubleDouble::from(t / scale))?.map(Real::to_f64);
-    Ok([r1, r2 * scale, r3])
+    let Posed { extremal, scale, mirror } = Posed::new(start, Limits::POSITION);
+    let [r1, r2, r3] = position_of(mirror, &extremal, DoubleDouble::from(t / scale.time))?.map(Real::to_f64);
+    Ok([r1, r2 * scale.time, r3])
 }
 
-/// The first conjugate time for inputs that need not be `f64` numbers, not rounded, and an estimate of its relative error.
+/// The j-th conjugate time, as [`super::conjugate::nth_conjugate_time`], right to half an ε. Domain and errors: as there.
+pub fn nth_conjugate_time_to_reference(start: &Start, j: u32) -> Result<f64, SpinError> {
+    let Posed { extremal, scale, .. } = Posed::new(start, Limits::POSITION);
+    Ok(solve(&extremal, Quantity::Phase, DoubleDouble::from(f64::from(j)))?.t.to_f64() * scale.time)
+}
+
+/// A first conjugate point that is not rounded.
+#[derive(Debug, Clone, Copy)]
+pub struct ReferencePoint {
+    /// The first conjugate time.
+    pub t1: DoubleDouble,
+    /// `atan2(r3, r1)`.
+    pub theta: DoubleDouble,
+    /// An estimate of the relative error of the time.
+    pub error: f64,
+}
+
+/// The first conjugate point of `p = |p_θ|` for inputs that need not be `f64` numbers: what condition numbers are taken from.
 ///
-/// Domain: that of [`Start`], `|p_θ| ≤ 1e100`. This is what condition numbers are taken from, by difference quotients.
-pub fn first_conjugate_time_in_double_double(
+/// Domain: that of [`Start`] with `1e-12 ≤ k`, `p ≤ 1e100`. Errors: [`SpinError`].
+pub fn first_conjugate_point_in_double_double(k: DoubleDouble, p: DoubleDouble) -> Result<ReferencePoint, SpinError> {
+    let extremal = Extremal::new(k, p);
+    let root = solve(&extremal, Quantity::Phase, DoubleDouble::ONE)?;
+    let point = point_at(DoubleDouble::ONE, &extremal, &root);
+    Ok(ReferencePoint { t1: point.t1, theta: point.theta, error: LOOSE_ROUNDING * point.error.to_f64() })
+}
+
+/// The position of `p = |p_θ|` at a time, for inputs that need not be `f64` numbers. Domain: `p ≤ 1e100`.
+pub fn position_in_double_double(
     k: DoubleDouble,
-    p_theta: DoubleDouble,
-) -> Result<(DoubleDouble, f64), SpinError> {
-    let root = solve(&Extremal::new(k, p_theta.abs()), Quantity::Phase, DoubleDouble::ONE)?;
-    Ok((root.t, root.error.to_f64()))
+    p: DoubleDouble,
+    t: DoubleDouble,
+) -> Result<[DoubleDouble; 3], SpinError> {
+    position_of(DoubleDouble::ONE, &Extremal::new(k, p), t)
 }
 
-/// A start in double-double, its `p_θ` brought into range: times and r2 are to be multiplied by `scale`, a power of two.
-struct Posed {
-    extremal: Extremal<DoubleDouble>,
-    scale: f64,
-    mirror: DoubleDouble,
+/// `δβ` at the n-th return to the equator: it vanishes where this return is conjugate, and `t1(p_θ)` has a vertical tangent.
+pub fn delta_beta_at_return(k: DoubleDouble, p: DoubleDouble, n: u32) -> Result<DoubleDouble, SpinError> {
+    let extremal = Extremal::new(k, p);
+    let t = solve(&extremal, Quantity::Lambda, DoubleDouble::from(f64::from(n)))?.t;
+    let state = extremal.state_near(t);
+    Ok(state.delta_beta + state.delta_beta_rate * (t - state.t))
 }
 
-impl Posed {
-    fn new(start: &Start) -> Self {
-        let (k, p) = (start.k(), start.p_theta().abs());
-        let limit = LIMIT_MOMENTUM * k.max(1.0);
-        let scale = if p > limit { libm::exp2(f64::from(libm::ilogb(limit) - libm::ilogb(p))) } else { 1.0 };
-        let extremal = Extremal::new(k.into(), DoubleDouble::from(p * scale));
-        Self { extremal, scale, mirror: start.mirror().into() }
-    }
+fn posed(start: &Start) -> Posed<DoubleDouble> {
+    Posed::new(start, Limits::DOUBLE_DOUBLE)
 }
