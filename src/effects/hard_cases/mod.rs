@@ -3,3 +3,5 @@
 pub mod family;
 pub mod serret_andoyer;
 pub mod serret_andoyer_naive;
+pub mod spin;
+mod spin_naive;

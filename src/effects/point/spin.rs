@@ -30,7 +30,7 @@ fn told(point: Result<ConjugatePoint, SpinError>) -> Result<Answer, PointError> 
         numbers: numbers.map(Some).to_vec(),
         reason: None,
         error: Some(point.error),
-        route: "closed form: the only solution of Theta = pi (monotone phase)".into(),
+        route: point.route(),
         work: Work { elliptic_calls: u64::from(point.elliptic_calls), roots_solved: 1, rows: 1, ..Work::default() },
     })
 }

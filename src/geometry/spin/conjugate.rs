@@ -9,15 +9,34 @@
 
 use super::extremal::{Extremal, hypotenuse};
 use super::phase::State;
+use super::posed::{Limits, Posed, Scale};
+use super::reference::{first_conjugate_point_to_reference, nth_conjugate_time_to_reference};
 use super::solve::{PhaseRoot, Quantity, SpinError, solve};
 use super::start::Start;
-use crate::numerics::pack::Pack;
+use crate::numerics::pack::{Mask, Pack};
 use crate::numerics::real::Real;
 
-/// A coordinate below this (in size) is rounding: near the meridian `r3` then has no sign of its own.
-const COORDINATE_ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// A coordinate below this many ε (in size) is rounding: near the meridian `r3` then has no sign of its own.
+const COORDINATE_ROUNDING: f64 = 32.0;
 /// Relative step of the difference quotients that estimate the condition number.
 const CONDITION_STEP: f64 = 1e-6;
+
+/// Above this error of the point, in radians, `f64` does not tell where it is, and double-double goes on. (At p_θ = 0 that is k
+/// above 1e4 or so; elsewhere it is reached next to a vertical tangent of `t1(p_θ)`.)
+const UNTOLD: f64 = 1e-6;
+
+/// Returns to the equator from which on no integration is offered as a second route: in `f64` it would lose more digits than
+/// there are in their number, and take a second.
+const TOO_MANY_TO_INTEGRATE: u32 = 100_000;
+
+/// The arithmetic in which a result was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Arithmetic {
+    /// 53 bits.
+    F64,
+    /// 106 bits, rounded at the end.
+    DoubleDouble,
+}
 
 /// The first conjugate point of an extremal.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,8 +55,51 @@ pub struct ConjugatePoint {
     pub iterations: u32,
     /// Carlson functions called.
     pub elliptic_calls: u32,
-    /// How often the extremal has returned to the equator by then: `floor(λ/π)`.
+    /// How often the extremal has returned to the equator by then: `floor(λ/π)`, or `u32::MAX` where that is more.
     pub crossings: u32,
+    /// The arithmetic that was needed.
+    pub arithmetic: Arithmetic,
+}
+
+impl ConjugatePoint {
+    /// How the point was found, in words, and why there is no second route to it where there is none.
+    pub fn route(&self) -> String {
+        let mut route = "closed form: the only solution of Theta = pi (monotone phase)".to_owned();
+        if self.arithmetic == Arithmetic::DoubleDouble {
+            route.push_str(", in double-double arithmetic: f64 does not tell where the point is");
+        }
+        if self.crossings >= TOO_MANY_TO_INTEGRATE {
+            let (least, crossings) = (if self.crossings == u32::MAX { "at least " } else { "" }, self.crossings);
+            route.push_str(&format!(
+                "; no second route: {least}{crossings} returns to the equator are too many to integrate"
+            ));
+        }
+        route
+    }
+
+    /// How far rounding may have moved the point, in R³: by the error of the time (the speed is at most `max(1, 1/k)`), and by that of
+    /// the coordinates.
+    pub fn place_error(&self, start: &Start) -> f64 {
+        self.error * self.t1 * (1.0 / start.k()).max(1.0) + COORDINATE_ROUNDING * f64::EPSILON
+    }
+
+    /// Whether the error of the time leaves it known where the point is. (The point moves with a speed of at most 1 for `k ≥ 1`;
+    /// for `k < 1` times are short.)
+    pub(super) fn is_told(&self) -> bool {
+        self.error * self.t1.max(1.0) <= UNTOLD
+    }
+
+    /// The point of a start whose own is smaller: time, r2 and r3 multiplied.
+    pub(super) fn scaled(mut self, scale: Scale) -> Self {
+        if scale != Scale::NONE {
+            self.t1 *= scale.time;
+            self.r[1] *= scale.time;
+            self.r[2] *= scale.along;
+            self.theta = libm::atan2(self.r[2], self.r[0]);
+            self.phi = libm::atan2(libm::hypot(self.r[0], self.r[2]), self.r[1]);
+        }
+        self
+    }
 }
 
 /// The cut point of an extremal: its first return to the equator.
@@ -57,6 +119,18 @@ pub struct CutPoint {
     pub elliptic_calls: u32,
 }
 
+impl CutPoint {
+    /// As [`ConjugatePoint::scaled`].
+    pub(super) fn scaled(mut self, scale: Scale) -> Self {
+        if scale != Scale::NONE {
+            self.t_cut *= scale.time;
+            self.r[2] *= scale.along;
+            self.theta = libm::atan2(self.r[2], self.r[0]);
+        }
+        self
+    }
+}
+
 /// The extremal's constants for a start, mirror image left out.
 pub fn extremal(start: &Start) -> Extremal<f64> {
     Extremal::new(start.k(), start.p_theta().abs())
@@ -65,40 +139,52 @@ pub fn extremal(start: &Start) -> Extremal<f64> {
 /// The first conjugate point: the only instant at which the monotone phase Θ is π, so no root can be skipped.
 ///
 /// Domain: every [`Start`]. Guarantee: `t1` to a few ε relative times the problem's condition number, the point to a
-/// few ε absolutely beyond what `t1` moves it; `error` is a bound. Special cases: `p_θ = 0` is an ordinary start (θ is
-/// then exactly 0 or π); for `p_θ < 0` the mirror image `θ → −θ`. Errors: [`SpinError`].
+/// few ε absolutely beyond what `t1` moves it; `error` is a bound. Where the error in `f64` leaves the point unknown by more than a
+/// millionth, and for k above 1e7, double-double goes on by itself; `arithmetic` says so. Special cases: `p_θ = 0` is an ordinary start (θ is then exactly 0
+/// or π); for `p_θ < 0` the mirror image `θ → −θ`; k below 1e-12 with `p_θ ≠ 0` by the limit `k → 0`, which is right to 1e-18. Errors:
+/// [`SpinError`], where double-double loses the point too.
 pub fn first_conjugate_point(start: &Start) -> Result<ConjugatePoint, SpinError> {
-    let extremal = extremal(start);
-    let root = solve(&extremal, Quantity::Phase, 1.0)?;
-    Ok(point_at(start.mirror(), &extremal, &root).member(0))
+    if Limits::F64.is_beyond(start) {
+        return first_conjugate_point_to_reference(start);
+    }
+    let posed = Posed::<f64>::new(start, Limits::F64);
+    let found = solve(&posed.extremal, Quantity::Phase, 1.0);
+    let point = found.map(|root| point_at(posed.mirror, &posed.extremal, &root).member(0).scaled(posed.scale));
+    match point {
+        Ok(point) if point.is_told() => Ok(point),
+        Ok(_) | Err(SpinError::PrecisionLost { .. }) => first_conjugate_point_to_reference(start),
+        Err(other) => Err(other),
+    }
 }
 
 /// [`ConjugatePoint`] over packs.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Points<S> {
-    t1: S,
-    theta: S,
+    pub(super) t1: S,
+    pub(super) theta: S,
     phi: S,
     r: [S; 3],
-    error: S,
+    pub(super) error: S,
     iterations: S,
     elliptic_calls: S,
     crossings: S,
 }
 
-impl<S: Pack<Scalar = f64>> Points<S> {
-    /// The point of member `i`.
+impl<S: Pack> Points<S> {
+    /// The point of member `i`, rounded to `f64`.
     #[inline(always)]
     pub(super) fn member(&self, i: usize) -> ConjugatePoint {
+        let rounded = |x: S| Real::to_f64(x.lane(i));
         ConjugatePoint {
-            t1: self.t1.lane(i),
-            theta: self.theta.lane(i),
-            phi: self.phi.lane(i),
-            r: self.r.map(|x| x.lane(i)),
-            error: self.error.lane(i),
-            iterations: self.iterations.lane(i) as u32,
-            elliptic_calls: self.elliptic_calls.lane(i) as u32,
-            crossings: self.crossings.lane(i) as u32,
+            t1: rounded(self.t1),
+            theta: rounded(self.theta),
+            phi: rounded(self.phi),
+            r: self.r.map(rounded),
+            error: rounded(self.error),
+            iterations: rounded(self.iterations) as u32,
+            elliptic_calls: rounded(self.elliptic_calls) as u32,
+            crossings: rounded(self.crossings) as u32,
+            arithmetic: Arithmetic::F64,
         }
     }
 }
@@ -107,9 +193,11 @@ impl<S: Pack<Scalar = f64>> Points<S> {
 #[inline(always)]
 pub(super) fn point_at<S: Pack>(mirror: S, extremal: &Extremal<S>, root: &PhaseRoot<S>) -> Points<S> {
     let r = conjugate_position(mirror, extremal, root);
+    // Where r3 of p ≠ 0 is below the smallest number, θ is still on its side of π.
+    let at_pi = r[2].equals(S::ZERO).and(r[0].less(S::ZERO)).and(extremal.p.more(S::ZERO));
     Points {
         t1: root.t,
-        theta: r[2].atan2(r[0]),
+        theta: S::select(at_pi, mirror * S::PI, r[2].atan2(r[0])),
         phi: hypotenuse(r[0].abs(), r[2].abs()).atan2(r[1]),
         r,
         error: root.error,
@@ -120,8 +208,13 @@ pub(super) fn point_at<S: Pack>(mirror: S, extremal: &Extremal<S>, root: &PhaseR
 }
 
 /// The j-th conjugate time, `j ≥ 1`: where `Θ = jπ`. Errors: [`SpinError`], also for `j = 0`.
+///
+/// In double-double where `f64` loses the point.
 pub fn nth_conjugate_time(start: &Start, j: u32) -> Result<f64, SpinError> {
-    Ok(solve(&extremal(start), Quantity::Phase, f64::from(j))?.t)
+    match solve(&extremal(start), Quantity::Phase, f64::from(j)) {
+        Err(SpinError::PrecisionLost { .. }) => nth_conjugate_time_to_reference(start, j),
+        found => Ok(found?.t),
+    }
 }
 
 /// How many conjugate times lie in `(0, t]`: `floor(Θ(t)/π)`.
@@ -138,18 +231,23 @@ pub fn conjugate_count(start: &Start, t: f64) -> Result<u32, SpinError> {
 ///
 /// Domain: every [`Start`]. Guarantee: as for [`first_conjugate_point`].
 pub fn cut_point(start: &Start) -> Result<CutPoint, SpinError> {
-    let extremal = extremal(start);
-    let root = solve(&extremal, Quantity::Lambda, 1.0)?;
-    let across = start.mirror() * start.k() * root.sin_beta;
+    let posed = Posed::<f64>::new(start, Limits::F64);
+    Ok(cut_point_of(posed.mirror, &posed.extremal)?.scaled(posed.scale))
+}
+
+/// [`cut_point`] in any scalar, rounded to `f64`.
+pub(super) fn cut_point_of<S: Real>(mirror: S, extremal: &Extremal<S>) -> Result<CutPoint, SpinError> {
+    let root = solve(extremal, Quantity::Lambda, S::ONE)?;
+    let across = mirror * extremal.k * root.sin_beta;
     let length = hypotenuse(across.abs(), root.cos_beta.abs());
-    let r = [-root.cos_beta / length, 0.0, positive_zero(across) / length];
+    let r = [-root.cos_beta / length, S::ZERO, positive_zero(across) / length];
     Ok(CutPoint {
-        t_cut: root.t,
-        theta: libm::atan2(r[2], r[0]),
-        r,
-        error: root.error,
-        iterations: root.evaluations as u32,
-        elliptic_calls: root.elliptic_calls as u32,
+        t_cut: root.t.to_f64(),
+        theta: r[2].atan2(r[0]).to_f64(),
+        r: r.map(Real::to_f64),
+        error: root.error.to_f64(),
+        iterations: root.evaluations.to_f64() as u32,
+        elliptic_calls: root.elliptic_calls.to_f64() as u32,
     })
 }
 
@@ -157,15 +255,30 @@ pub fn cut_point(start: &Start) -> Result<CutPoint, SpinError> {
 ///
 /// Domain: `t ≥ 0` finite. Guarantee: a few ε of `1 + λ(t)` absolutely; poles and equator are ordinary points.
 pub fn position(start: &Start, t: f64) -> Result<[f64; 3], SpinError> {
-    let extremal = extremal(start);
-    let (state, late) = state_at(&extremal, t)?;
-    let half = Real::floor(state.half_turns / 2.0);
-    let sign = if state.half_turns - 2.0 * half > 0.5 { -1.0 } else { 1.0 };
-    let (sine, cosine) = libm::sincos(state.lambda_rest);
+    position_of(start.mirror(), &extremal(start), t)
+}
+
+/// [`position`] in any scalar.
+pub(super) fn position_of<S: Real>(mirror: S, extremal: &Extremal<S>, t: S) -> Result<[S; 3], SpinError> {
+    let (state, late) = state_at(extremal, t)?;
+    let (two, one) = (S::from_f64(2.0), S::ONE);
+    let half = (state.half_turns / two).floor();
+    let sign = if state.half_turns - two * half > S::from_f64(0.5) { -one } else { one };
+    let (sine, cosine) = state.lambda_rest.sin_cos();
     let h = state.momentum(extremal.k);
-    let r = rotated(&extremal, h, sign * sine, sign * cosine);
-    let moved = shifted(&extremal, h, r, late);
-    Ok([moved[0], moved[1], start.mirror() * moved[2]])
+    let r = rotated(extremal, h, sign * sine, sign * cosine);
+    let moved = shifted(extremal, h, r, late);
+    Ok([moved[0], moved[1], mirror * moved[2]])
+}
+
+/// A bound of the rounding error of [`position`], in R³: that of the angle λ and of the time.
+///
+/// Domain and errors as for [`position`].
+pub fn position_error(start: &Start, t: f64) -> Result<f64, SpinError> {
+    let extremal = extremal(start);
+    let (state, _) = state_at(&extremal, t)?;
+    let speed = (1.0 / start.k()).max(1.0);
+    Ok(state.lambda_rounding(state.half_turns) + f64::EPSILON * (4.0 * speed * t + COORDINATE_ROUNDING))
 }
 
 /// The momentum `h(t)` in so(3)*.
@@ -194,9 +307,9 @@ pub fn condition_estimate(start: &Start) -> Result<f64, SpinError> {
 }
 
 /// The state whose time is nearest to `t`, and how much later `t` is (a few ε of `t`).
-fn state_at(extremal: &Extremal<f64>, t: f64) -> Result<(State<f64>, f64), SpinError> {
-    if !(t >= 0.0 && t.is_finite()) {
-        return Err(SpinError::OutOfDomain { what: "t", found: t, accepted: "finite and not negative" });
+fn state_at<S: Real>(extremal: &Extremal<S>, t: S) -> Result<(State<S>, S), SpinError> {
+    if !(t >= S::ZERO && t.is_finite()) {
+        return Err(SpinError::OutOfDomain { what: "t", found: t.to_f64(), accepted: "finite and not negative" });
     }
     let state = extremal.state_near(t);
     Ok((state, t - state.t))
@@ -212,8 +325,9 @@ fn rotated<S: Pack>(extremal: &Extremal<S>, h: [S; 3], sine: S, cosine: S) -> [S
 }
 
 /// `v + ω × v·dt`, `ω = (h1/2k², 0, h3/2)`, for a `dt` of the size of rounding errors.
-fn shifted(extremal: &Extremal<f64>, h: [f64; 3], v: [f64; 3], dt: f64) -> [f64; 3] {
-    let (w1, w3) = (h[0] / (2.0 * extremal.k * extremal.k) * dt, h[2] / 2.0 * dt);
+fn shifted<S: Real>(extremal: &Extremal<S>, h: [S; 3], v: [S; 3], dt: S) -> [S; 3] {
+    let two = S::from_f64(2.0);
+    let (w1, w3) = (h[0] / (two * extremal.k * extremal.k) * dt, h[2] / two * dt);
     [v[0] - w3 * v[1], v[1] + w3 * v[0] - w1 * v[2], v[2] + w1 * v[1]]
 }
 
@@ -226,7 +340,7 @@ fn conjugate_position<S: Pack>(mirror: S, extremal: &Extremal<S>, root: &PhaseRo
     // r3 is positive for p > 0, of order p³; below rounding its sign would put θ at −π instead of π. The error of the time
     // moves the point with a speed of at most max(1, 1/k).
     let moved = root.error * root.t * S::ONE.max(S::ONE / extremal.k);
-    let rounding = S::from_f64(COORDINATE_ROUNDING).max(moved);
+    let rounding = (S::from_f64(COORDINATE_ROUNDING) * S::EPSILON).max(moved);
     let r3 = S::select(r3.abs().at_most(rounding), r3.abs(), r3);
     let r3 = S::select(extremal.p.equals(S::ZERO), S::ZERO, r3);
     [r1, r2, positive_zero(mirror * r3)]

@@ -24,6 +24,9 @@ const MOST_NEWTON_STEPS: usize = 8;
 /// Longest step of the short way, in the argument u. Where χ is nearly constant the coefficients kept can be far below those to
 /// come (a tiny multiple of e^2u), and the radius estimated from them far too large; the pendulum itself changes on a scale of 1.
 const LONGEST_STEP: f64 = 0.5;
+/// For the same reason no series is believed to reach farther than this. (Functions of the pendulum have singularities at distances of a
+/// quarter period, at least π/2, from the real axis; in the argument u, no coefficient stays small much longer.)
+const LARGEST_RADIUS: f64 = 8.0;
 /// A relative step below this, 2^-26, is Newton's last but one.
 const AT_REST: f64 = 1.490_116_119_384_765_6e-8;
 
@@ -149,6 +152,7 @@ impl<S: Pack> Expansion<S> {
         let third = size[2] * roots[1].max(roots[1].sqrt());
         let largest = size[0].max(before).max(third);
         let radius = S::select(largest.more(S::ZERO), one / largest.sqrt().sqrt().sqrt(), one);
+        let radius = radius.min(S::from_f64(LARGEST_RADIUS));
         match quantity {
             Quantity::Phase => target[0] = state.phase_beyond(turns),
             Quantity::Lambda => {

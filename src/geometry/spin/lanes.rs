@@ -3,10 +3,11 @@
 //! The formulas are those of one start ([`super::conjugate::first_conjugate_point`]), instantiated with packs: the same
 //! operations in the same order, so a start has the same bits alone, beside any others, and with any instructions. Starts
 //! are packed regime by regime. The elementary regimes, and members that the short way of `solve` does not settle (next to a
-//! triple root, times too long), take the scalar route one by one; so errors are its errors.
+//! triple root) or that need double-double (times too long), take the scalar route one by one; so errors are its errors.
 
 use super::conjugate::{ConjugatePoint, first_conjugate_point, point_at};
 use super::extremal::{Extremal, Regime};
+use super::posed::Limits;
 use super::solve::{Quantity, SpinError, short_way};
 use super::start::Start;
 use crate::numerics::lanes::dispatch::{Instructions, LaneWork, chosen, dispatch_with};
@@ -39,7 +40,8 @@ impl LaneWork for Packed<'_> {
     fn run<P: Pack<Scalar = f64>>(self) -> Self::Output {
         let mut found = vec![None; self.starts.len()];
         let mut members: [Vec<usize>; 3] = [const { Vec::new() }; 3];
-        for (i, start) in self.starts.iter().enumerate() {
+        let within = |(_, start): &(usize, &Start)| Limits::F64.hold(start);
+        for (i, start) in self.starts.iter().enumerate().filter(within) {
             match Regime::of(start.k(), start.p_theta().abs()) {
                 Regime::RotatingBelow => members[0].push(i),
                 Regime::RotatingAbove => members[1].push(i),
@@ -63,8 +65,9 @@ impl LaneWork for Packed<'_> {
             let (root, settled) = short_way(&extremal, Quantity::Phase, P::ONE);
             let points = point_at(mirror, &extremal, &root);
             for (lane, i) in chunk.iter().enumerate() {
-                if settled.lane(lane) {
-                    found[*i] = Some(points.member(lane));
+                let point = points.member(lane);
+                if settled.lane(lane) && point.is_told() {
+                    found[*i] = Some(point);
                 }
             }
         }
@@ -91,7 +94,7 @@ mod tests {
         }
     }
 
-    /// 7000 starts: everywhere, the round case, the meridian, next to the separatrix on both sides and on it, next to the
+    /// 7000 starts: everywhere, beyond the limits of `f64`, the round case, the meridian, next to the separatrix on both sides and on it, next to the
     /// crossing of the equator (the triple root), and times too long.
     fn starts() -> Vec<Start> {
         let mut source = Source(17);
@@ -111,7 +114,9 @@ mod tests {
                 4 => (1.2, 0.467_253_57 * near),
                 5 => (0.8, 1e-3 * libm::pow(2e4, source.next())),
                 6 => (above_one, q * source.next()),
-                7 if i % 100 == 7 => (1e8 * (1.0 + source.next()), 0.0),
+                7 if i % 100 == 7 => (1e15 * (1.0 + source.next()), 0.0),
+                7 if i % 100 == 17 => (1e6 * (1.0 + source.next()), p),
+                7 if i % 100 == 27 => (1e-14 * (1.0 + source.next()), p),
                 _ => (k, p),
             };
             starts.push(Start::new(k, sign * p).unwrap());

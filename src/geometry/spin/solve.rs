@@ -16,11 +16,12 @@ use crate::numerics::pack::{Mask, Pack};
 use crate::numerics::real::Real;
 use thiserror::Error;
 
-/// Closed-form evaluations after which the solver gives up (one or two are usual, bisection alone would need 60).
-const MOST_EVALUATIONS: u32 = 100;
+/// Closed-form evaluations after which the solver gives up (one or two are usual; halving every fourth time, as where t1 lies in a transition of width 1/k, 250 give 62 bits).
+const MOST_EVALUATIONS: u32 = 250;
 /// Evaluations after which the bracket must have halved, or it is halved.
 const CHECK_EVERY: u32 = 4;
-/// An error of the point, in radians, above which there is no answer. (At p_θ = 0 that is k above 8e5.)
+/// An error of the point, in radians, or of the time, relative, above which there is no answer. (At p_θ = 0 that is k above 8e5 in
+/// `f64`, above 5e13 in double-double.)
 const WORTHLESS: f64 = 1e-2;
 /// Closed-form evaluations of the short way.
 const MOST_SHORT_EVALUATIONS: u32 = 4;
@@ -41,17 +42,20 @@ pub enum Quantity {
 /// Why no instant could be given.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum SpinError {
-    /// The time is so long that its rounding moves the point by more than a hundredth of a radian.
+    /// The time is so long that its rounding moves the point by more than a hundredth of a radian, or it is not known to a hundredth.
     #[error(
-        "k = {k}, p_theta = {p_theta}: the time is too long for this precision (its rounding moves the point by {moved:e})"
+        "k = {k}, p_theta = {p_theta}: the time is too long for an arithmetic of relative accuracy {epsilon:.0e} (rounding \
+         moves the point by {moved:.1e}), and far too long to be integrated"
     )]
     PrecisionLost {
         /// Anisotropy.
         k: f64,
         /// Covector.
         p_theta: f64,
-        /// Estimated error of the point, in radians.
+        /// Estimated error of the point, in radians, or of the time, relative.
         moved: f64,
+        /// The rounding unit of the arithmetic.
+        epsilon: f64,
     },
     /// The iteration did not end. A defect.
     #[error("k = {k}, p_theta = {p_theta}: no convergence to {turns} half turns after {evaluations} evaluations")]
@@ -153,11 +157,11 @@ pub fn solve<S: Real>(extremal: &Extremal<S>, quantity: Quantity, turns: S) -> R
             high = high.min(state.t);
         }
         let y = series.root(S::ZERO, (low - state.t) * rate, (high - state.t) * rate);
-        if series.omitted(y) <= S::EPSILON * S::from_f64(0.25) {
-            let rounding = match quantity {
-                Quantity::Phase => state.phase_rounding(turns),
-                Quantity::Lambda => state.lambda_rounding(turns),
-            };
+        let rounding = match quantity {
+            Quantity::Phase => state.phase_rounding(turns),
+            Quantity::Lambda => state.lambda_rounding(turns),
+        };
+        if series.omitted(y) <= negligible(rounding) {
             let evaluation = short_evaluations + evaluation;
             return accept(extremal, &state, &series, y, rounding, Count { evaluation, calls });
         }
@@ -180,6 +184,11 @@ pub fn solve<S: Real>(extremal: &Extremal<S>, quantity: Quantity, turns: S) -> R
             }
             width = high - low;
         }
+    }
+    // Where Θ itself is rounding there is nothing to converge to.
+    let moved = (S::from_f64(ROUNDING_OF_TIME) * S::EPSILON * t).to_f64();
+    if moved > WORTHLESS {
+        return Err(precision_lost(extremal, moved));
     }
     Err(SpinError::NoConvergence {
         k: extremal.k.to_f64(),
@@ -205,11 +214,11 @@ pub fn short_way<S: Pack>(extremal: &Extremal<S>, quantity: Quantity, turns: S) 
         let state = extremal.elliptic_state(elliptic, t);
         let series = Expansion::new(extremal, &state, quantity, turns);
         let (y, at_rest) = series.near_root();
-        let complete = series.omitted(y).at_most(S::EPSILON * S::from_f64(0.25));
         let rounding = match quantity {
             Quantity::Phase => state.phase_rounding(turns),
             Quantity::Lambda => state.lambda_rounding(turns),
         };
+        let complete = series.omitted(y).at_most(negligible(rounding));
         let (shift, straight) = straight_shift(&series, y, rounding);
         let count = Count { evaluation, calls: CALLS_FOR_CONSTANTS + CALLS_FOR_STATE * evaluation };
         let (root, moved) = finish(extremal, &state, &series, y, shift, count);
@@ -269,6 +278,13 @@ impl<S: Pack> PhaseRoot<S> {
     }
 }
 
+/// What a series may omit: a quarter of ε, and of the rounding error where the phase is known far better than to ε (small k,
+/// where it hardly changes with time).
+#[inline(always)]
+fn negligible<S: Pack>(rounding: S) -> S {
+    S::from_f64(0.25) * rounding.min(S::EPSILON)
+}
+
 #[derive(Clone, Copy)]
 struct Count {
     evaluation: u32,
@@ -303,9 +319,18 @@ fn accept<S: Real>(
     let moved = moved.to_f64();
     let useful = moved < WORTHLESS;
     if !useful {
-        return Err(SpinError::PrecisionLost { k: extremal.k.to_f64(), p_theta: extremal.p.to_f64(), moved });
+        return Err(precision_lost(extremal, moved));
     }
     Ok(root)
+}
+
+fn precision_lost<S: Real>(extremal: &Extremal<S>, moved: f64) -> SpinError {
+    SpinError::PrecisionLost {
+        k: extremal.k.to_f64(),
+        p_theta: extremal.p.to_f64(),
+        moved,
+        epsilon: S::EPSILON.to_f64(),
+    }
 }
 
 /// The root `y` of the series as a [`PhaseRoot`], and by how much its error moves the point.
@@ -321,8 +346,9 @@ fn finish<S: Pack>(
     let rate = extremal.rate;
     let t = state.t + y / rate;
     let error = shift / (rate * t) + S::from_f64(ROUNDING_OF_TIME) * S::EPSILON;
-    // The point moves with speed |ω × r| ≤ max(1, 1/k).
-    let moved = error * t * S::ONE.max(S::ONE / extremal.k);
+    let sin_beta = expansion::value(&series.sin_beta, y);
+    // The point moves with speed |ω × r| ≤ max(1, |sin β|/k).
+    let moved = error * (t * S::ONE.max(sin_beta.abs() / extremal.k)).max(S::ONE);
     let root = PhaseRoot {
         t,
         half_turns: state.half_turns,
@@ -330,7 +356,7 @@ fn finish<S: Pack>(
         chi_rest: expansion::value(&series.chi, y),
         sin_chi: expansion::value(&series.sin_chi, y),
         cos_chi: expansion::value(&series.cos_chi, y),
-        sin_beta: expansion::value(&series.sin_beta, y),
+        sin_beta,
         cos_beta: expansion::value(&series.cos_beta, y),
         beta_rate: expansion::value(&series.beta_rate, y) * rate,
         error,

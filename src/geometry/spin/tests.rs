@@ -313,15 +313,17 @@ fn condition_numbers() {
     assert_eq!(regimes, [Round, Meridian, RotatingBelow, RotatingAbove, Separatrix, Oscillating]);
 }
 
-/// For p_θ = 0 and large k, t1 ≈ 2πk²: k = 7e5 still has an answer (t1 to 16 digits against the elementary equation),
-/// k = 1e8 says that it has none.
+/// For p_θ = 0 and large k, t1 ≈ 2πk²: `f64` tells the time (16 digits against the elementary equation) but from k = 1e4 or so not the
+/// point, where double-double goes on; k = 1e15 says that there is no answer.
 #[test]
 fn too_long_a_time_is_refused() {
-    let k = 7e5;
-    let point = first_conjugate_point(&Start::new(k, 0.0).unwrap()).unwrap();
-    let limit: f64 = super::limits::meridian_conjugate_time(k).unwrap();
-    assert!((point.t1 / limit - 1.0).abs() < 16.0 * f64::EPSILON, "{} {limit}", point.t1);
-    assert!(matches!(first_conjugate_point(&Start::new(1e8, 0.0).unwrap()), Err(SpinError::PrecisionLost { .. })));
+    for (k, arithmetic) in [(1e3, Arithmetic::F64), (7e5, Arithmetic::DoubleDouble), (1e8, Arithmetic::DoubleDouble)] {
+        let point = first_conjugate_point(&Start::new(k, 0.0).unwrap()).unwrap();
+        let limit: f64 = super::limits::meridian_conjugate_time(k).unwrap();
+        assert!((point.t1 / limit - 1.0).abs() < 16.0 * f64::EPSILON, "{} {limit}", point.t1);
+        assert_eq!(point.arithmetic, arithmetic, "{k}");
+    }
+    assert!(matches!(first_conjugate_point(&Start::new(1e15, 0.0).unwrap()), Err(SpinError::PrecisionLost { .. })));
 }
 
 #[test]
