@@ -174,19 +174,23 @@ impl<S: Real> ClosedForm<S> {
         let (chi, half_width) = (z.atan2(sum), width.atan2(two));
         // Rounding: of the terms of ψ and of Z, and of u by which both move.
         let number = |x: S| x.abs().to_f64();
-        let of_z = (number(sum) + 2.0) / (number(sum) * number(sum) + number(z) * number(z));
         let terms = number(factor)
             * (number(near * both) * (number(here.b) + number(start.b))
                 + number(near_gap) * (number(falling) + number(rising)));
+        let magnified = cancellation.max(1.0);
+        let in_z = Z_ROUNDING * magnified * (terms + number(secular * both));
+        // |∂F/∂Z| at the Z nearest to zero that there may be: near there χ turns fast.
+        let nearest = (number(z) - 4.0 * epsilon * in_z).max(0.0);
+        let of_z = (number(sum) + 2.0) / (number(sum) * number(sum) + nearest * nearest);
         // d ln ρ/du, and what sn cn dn changes by.
         let slope = 1.0 + number(here.product * self.n) / number(here.rho * here.rho);
         let moving = number(factor) * (number(near * both) + number(near_gap) * number(inverse)) + slope * terms;
         let of_u =
             number(slow) / number(here.rho * here.rho) + of_z * (moving + slope * number(secular * both)) + slope;
-        let magnified = cancellation.max(1.0);
         let rounding = epsilon
             * (PSI_ROUNDING * (number(straight) + number(slow) * (number(here.j) + number(start.j)))
-                + Z_ROUNDING * (of_z * magnified * (terms + number(secular * both)) + 1.0)
+                + of_z * in_z
+                + Z_ROUNDING
                 + U_ROUNDING * (number(u) + 1.0) * of_u);
         let _ = far;
         told(psi, chi, half_width, rounding)
