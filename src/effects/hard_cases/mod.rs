@@ -1,3 +1,5 @@
 //! Hard cases: families of starts that run into a limit, each answered by a naive formulation and by ours, beside the truth.
 
 pub mod family;
+pub mod rotation_group;
+pub mod rotation_group_naive;

@@ -250,6 +250,34 @@ impl<S: Real> ClosedForm<S> {
         Root { time, error: if error.is_nan() { f64::INFINITY } else { error.max(apart) } }
     }
 
+    /// By how much each root differs from a given time, relative and to first order.
+    pub(super) fn relative_change(&mut self, times: [S; 2]) -> [f64; 2] {
+        let step = S::from_f64(1e-7);
+        [0, 1].map(|which| {
+            let here = self.value(which, times[which]).0;
+            let after = self.value(which, times[which] * (S::ONE + step)).0;
+            let slope = (after - here) / step;
+            -(here / slope).to_f64()
+        })
+    }
+
+    /// 2K/ω.
+    pub(super) fn period(&self) -> S {
+        (self.quarter[0] + self.quarter[0]) / self.omega
+    }
+
+    /// The cosine of the angle between M and the axis that the polhode goes round, and its relative error; not of a symmetric body,
+    /// where it is constant.
+    pub(super) fn steady_cosine(&mut self, time: S) -> (S, f64) {
+        let Polhode { far, whole_gap, .. } = self.polhode;
+        let u = self.u0 + self.omega * time;
+        let at = Jacobi::new(u, self.m, self.mc);
+        self.calls += 1;
+        let slope = (self.m * at.sn * at.cn / at.dn).to_f64().abs();
+        let error = S::EPSILON.to_f64() * (4.0 + 4.0 * u.to_f64().abs() * slope);
+        ((far / whole_gap).sqrt() * at.dn, error)
+    }
+
     /// Elliptic integrals and functions evaluated so far.
     pub(super) fn calls(&self) -> u64 {
         self.calls

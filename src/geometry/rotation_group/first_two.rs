@@ -9,31 +9,29 @@
 //! is stable whatever the start. Units: those of the start. Not known here: how inputs are named.
 
 use crate::geometry::rotation_group::closed_form::{ClosedForm, Root};
-use crate::geometry::rotation_group::conjugate::{ConjugateError, first_conjugate_times};
+use crate::geometry::rotation_group::conjugate::{ConjugateError, first_conjugate_times_by};
 use crate::geometry::rotation_group::metric::Metric;
 use crate::geometry::rotation_group::polhode::{Polhode, Start};
 use crate::numerics::counts::Work;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
+use crate::numerics::taylor::integrator::Settings;
 
-/// The relative error up to which an answer is taken as it is: 20 times the ε that its own rounding and 1/3 of one that the inputs'
-/// makes at least.
+/// The relative error up to which an answer is taken as it is: stable whatever the condition number (it is 1/3 at least).
 pub const ENOUGH: f64 = 20.0 * f64::EPSILON;
 /// What rounding to `f64` adds.
 const ROUNDED: f64 = 0.5 * f64::EPSILON;
-/// What the closed form's estimate may say at most to be believed, in `f64` and in double-double: where rounding is magnified more
-/// than 1e7 times, F± may seem to pass 2π elsewhere too. Beyond, another route is taken whatever was asked for.
-const BELIEVED: [f64; 2] = [1e-9, 1e-25];
-/// For want of better: magnified 1e10 times.
-const LAST_RESORT: f64 = 1e-22;
+/// What the closed form's estimate may say at most to be believed, in `f64` and in double-double (far below what an `f64` can tell):
+/// it is made of first derivatives.
+const BELIEVED: [f64; 2] = [1e-6, 1e-19];
+/// For want of better.
+const LAST_RESORT: f64 = 1e-17;
 /// Beyond this ratio of A, B, C products leave the range of double-double.
 const LARGEST_RATIO: f64 = 1e100;
 /// An answer with a larger relative error is none.
-const LEAST: f64 = 1e-3;
-/// Integrations longer than this many turns of the fastest axis are not begun: some ten steps a turn, and their rounding adds up.
-const MOST_TURNS: f64 = 2000.0;
-/// The same in double-double, whose steps take thirty times as long.
-const MOST_LONG_TURNS: f64 = 400.0;
+const WORST: f64 = 1e-3;
+/// Steps after which an integration in `f64`, and in double-double, gives up: about a second of either.
+const MOST_STEPS: [u64; 2] = [100_000, 3000];
 
 /// How the times were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,6 +137,48 @@ pub fn first_two_conjugate_times_to_reference(start: &Start) -> Result<FirstTwo,
     find(start, 0.0)
 }
 
+/// By how much the times of another start differ from those found, relative and to first order: what condition numbers are made of.
+/// None where the other one lies on the separating polhode or the closed form does not resolve it.
+pub fn relative_change(found: &FirstTwo, moved: &Start) -> Option<[f64; 2]> {
+    let mut form = ClosedForm::new(Polhode::of(moved).ok()?);
+    let size = size(moved);
+    let times = [0, 1].map(|i| {
+        let (high, low) = (libm::ldexp(found.times[i], moved.exponent), libm::ldexp(found.rests[i], moved.exponent));
+        DoubleDouble::from_sum(high, low) * size
+    });
+    let change = form.relative_change(times);
+    let believed = found.error <= BELIEVED[1] && matches!(found.route, Route::LongClosedForm);
+    (believed && change.iter().all(|x| x.is_finite())).then_some(change)
+}
+
+/// The cosine of the angle between the momentum at a time and the axis that it goes round, in the body, in any scalar; its relative error
+/// (rounding of the phase, that is, in proportion to the time). Positive: which end of the axis is that of the start.
+///
+/// Formula: `√(p/(p+r)) dn(u0 + ω t)` of [`super::closed_form`]. None on the separating polhode, and for a symmetric body,
+/// where it is constant.
+pub fn steady_cosine<S: Real>(
+    start: &Start,
+    time: f64,
+    scalar: impl Fn(&Polhode<DoubleDouble>) -> Polhode<S>,
+) -> Option<(S, f64)> {
+    let polhode = Polhode::of(start).ok().filter(|polhode| !polhode.symmetric)?;
+    let here = DoubleDouble::from_sum(libm::ldexp(time, start.exponent), 0.0) * size(start);
+    let time = S::from_f64(here.high()) + S::from_f64(here.low());
+    Some(ClosedForm::new(scalar(&polhode)).steady_cosine(time))
+}
+
+/// The time in which the cosine of [`steady_cosine`] comes back: 2K/ω. None where that has no number.
+pub fn steady_period(start: &Start) -> Option<f64> {
+    let polhode = Polhode::of(start).ok().filter(|polhode| !polhode.symmetric)?;
+    let period = ClosedForm::new(polhode.rounded()).period() / size(start).to_f64();
+    Some(libm::ldexp(period, -start.exponent))
+}
+
+/// |M| in the units of [`Start`].
+fn size(start: &Start) -> DoubleDouble {
+    Real::sqrt(start.momentum.iter().fold(DoubleDouble::default(), |sum, m| sum + *m * *m))
+}
+
 fn find(start: &Start, enough: f64) -> Result<FirstTwo, FirstTwoError> {
     let [first, second] = spread(start);
     if second / first > LARGEST_RATIO {
@@ -169,13 +209,12 @@ fn find(start: &Start, enough: f64) -> Result<FirstTwo, FirstTwoError> {
         // Between is a range where it is right more often than not: for want of better only.
         best = answer.ok().filter(|_| error < LAST_RESORT);
     }
-    // While the slowest axis turns as far as t2 may be.
-    let turns = 1.5 * second / first;
     let mut work = Work::default();
     let exact = start.momentum.iter().all(|m| m.low() == 0.0);
-    if enough > 0.0 && exact && turns <= MOST_TURNS {
+    if enough > 0.0 && exact {
         let metric = metric(start.inverse_inertia.map(Real::to_f64))?;
-        if let Ok(found) = first_conjugate_times(&metric, start.momentum.map(Real::to_f64), 2, f64::EPSILON) {
+        let settings = Settings { maximum_steps: MOST_STEPS[0], ..Settings::new(f64::EPSILON) };
+        if let Ok(found) = first_conjugate_times_by(&metric, start.momentum.map(Real::to_f64), 2, &settings) {
             work = work.plus(found.work);
             if found.error <= enough {
                 let times = [0, 1].map(|i| (found.times[i], 0.0));
@@ -183,15 +222,13 @@ fn find(start: &Start, enough: f64) -> Result<FirstTwo, FirstTwoError> {
             }
         }
     }
-    if turns <= MOST_LONG_TURNS {
-        let epsilon = DoubleDouble::EPSILON.to_f64();
-        if let Ok(found) = first_conjugate_times(&metric(start.inverse_inertia)?, start.momentum, 2, epsilon) {
-            let times = [0, 1].map(|i| (found.times[i].high(), found.times[i].low()));
-            let work = work.plus(found.work);
-            let answer = told(start, times, found.error + rounded, Route::LongIntegration, calls, work)?;
-            if answer.error < LEAST && best.as_ref().is_none_or(|best| answer.error <= best.error) {
-                return Ok(answer);
-            }
+    let settings = Settings { maximum_steps: MOST_STEPS[1], ..Settings::new(DoubleDouble::EPSILON.to_f64()) };
+    if let Ok(found) = first_conjugate_times_by(&metric(start.inverse_inertia)?, start.momentum, 2, &settings) {
+        let times = [0, 1].map(|i| (found.times[i].high(), found.times[i].low()));
+        let work = work.plus(found.work);
+        let answer = told(start, times, found.error + rounded, Route::LongIntegration, calls, work)?;
+        if answer.error < WORST && best.as_ref().is_none_or(|best| answer.error <= best.error) {
+            return Ok(answer);
         }
     }
     best.ok_or_else(|| FirstTwoError::Unresolved { distance: distance(start), ratio: second / first })
@@ -224,7 +261,7 @@ fn told(
     elliptic_calls: u64,
     work: Work,
 ) -> Result<FirstTwo, FirstTwoError> {
-    let size = Real::sqrt(start.momentum.iter().fold(DoubleDouble::default(), |sum, m| sum + *m * *m));
+    let size = size(start);
     let closed = matches!(route, Route::ClosedForm | Route::LongClosedForm);
     let mut answer = FirstTwo { times: [0.0; 2], rests: [0.0; 2], error, route, elliptic_calls, work };
     for (i, (high, low)) in times.into_iter().enumerate() {
