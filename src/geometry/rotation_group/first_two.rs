@@ -283,3 +283,7 @@ fn told(
     }
     Ok(answer)
 }
+
+#[cfg(test)]
+#[path = "first_two_tests.rs"]
+mod tests;
