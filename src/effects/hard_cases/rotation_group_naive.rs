@@ -16,14 +16,16 @@ use crate::numerics::taylor::flow::{Columns, Flow, Joined, WithColumns};
 use crate::numerics::taylor::integrator::{Compensated, Observer, Settings, Step};
 use std::ops::ControlFlow;
 
-/// Requested relative error of both integrations.
+/// Requested relative error a step.
 const TOLERANCE: f64 = 1e-13;
+/// The same in the chart, for a long time: what one asks for where 1e-13 would take too long.
+const LONG_TOLERANCE: f64 = 1e-9;
 /// Places a step where the sign is looked at.
 const LOOKS: usize = 8;
 /// Steps after which the search for a sign gives up: a family must not take longer than the answers themselves.
 const MOST_STEPS: u64 = 300;
 /// Steps after which the long integration gives up.
-const MOST_LONG_STEPS: u64 = 400_000;
+const MOST_LONG_STEPS: u64 = 250_000;
 /// Turns of the slowest axis that are searched.
 const TURNS: f64 = 4.0;
 /// Before this fraction of a turn of the fastest axis the determinant is zero by rounding.
@@ -148,7 +150,7 @@ pub fn cosines_in_the_chart(inverse_inertia: [f64; 3], momentum: [f64; 3], times
     let size = libm::sqrt(x * x + y * y + z * z);
     let (phi2, phi3) = (libm::acos(z / size), libm::atan2(y, -x));
     let mut seen = Recorder { times, values: Vec::with_capacity(times.len()) };
-    let settings = Settings { maximum_steps: MOST_LONG_STEPS, ..Settings::new(TOLERANCE) };
+    let settings = Settings { maximum_steps: MOST_LONG_STEPS, ..Settings::new(LONG_TOLERANCE) };
     let equations = PrintedEquations { inverse_inertia, p1: size };
     let span = (0.0, times.last().copied().unwrap_or(0.0) * 1.001);
     let _ = integrate(Dop853, &ByRate::new(equations), &[phi2, phi3, 0.0, z], span, &settings, &mut seen);

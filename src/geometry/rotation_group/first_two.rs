@@ -26,6 +26,8 @@ const ROUNDED: f64 = 0.5 * f64::EPSILON;
 const BELIEVED: [f64; 2] = [1e-6, 1e-19];
 /// For want of better.
 const LAST_RESORT: f64 = 1e-17;
+/// Relative error a step of integrations in double-double: half of their digits to spare.
+const LONG_TOLERANCE: f64 = 1e-26;
 /// Beyond this ratio of A, B, C products leave the range of double-double.
 const LARGEST_RATIO: f64 = 1e100;
 /// An answer with a larger relative error is none.
@@ -222,7 +224,7 @@ fn find(start: &Start, enough: f64) -> Result<FirstTwo, FirstTwoError> {
             }
         }
     }
-    let settings = Settings { maximum_steps: MOST_STEPS[1], ..Settings::new(DoubleDouble::EPSILON.to_f64()) };
+    let settings = Settings { maximum_steps: MOST_STEPS[1], ..Settings::new(LONG_TOLERANCE) };
     if let Ok(found) = first_conjugate_times_by(&metric(start.inverse_inertia)?, start.momentum, 2, &settings) {
         let times = [0, 1].map(|i| (found.times[i].high(), found.times[i].low()));
         let work = work.plus(found.work);
