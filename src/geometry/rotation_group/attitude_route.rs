@@ -22,6 +22,7 @@ use crate::numerics::taylor::flow::{
     Algebra, BaseSeries, CAPACITY, Columns, Flow, Joined, Series, Tangent, WithColumns, convolve, convolve_square,
     largest,
 };
+use crate::numerics::taylor::integrator::Settings;
 use crate::numerics::taylor::step::{Jet, absolute_sum};
 
 /// The attitude under a constant momentum in space. State: the unit quaternion `[w, x, y, z]`.
@@ -224,7 +225,8 @@ pub fn first_conjugate_times_by_attitude<S: Real>(
     let zero = [S::ZERO; 4];
     let start = Joined { base: [S::ONE, S::ZERO, S::ZERO, S::ZERO], columns: Columns([zero; 2]) };
     let determinant = AttitudeDeterminant { space_momentum: body_momentum };
-    search(&system, &start, determinant, count, end_of_search(metric, &body_momentum), tolerance)
+    let settings = Settings::new(tolerance);
+    search(&system, &start, determinant, count, end_of_search(metric, &body_momentum), &settings)
 }
 
 #[cfg(test)]

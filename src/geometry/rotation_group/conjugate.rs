@@ -219,19 +219,19 @@ pub(super) fn search<S: Real, F: JacobiPair<S>, E: EventFunction<S, F>>(
     determinant: E,
     count: usize,
     t_max: S,
-    tolerance: f64,
+    settings: &Settings,
 ) -> Result<ConjugateTimes<S>, ConjugateError> {
     let zeros = Zeros::new(determinant, 2);
     let times = Vec::with_capacity(count + 1);
     let mut search = ConjugateSearch { zeros, wanted: count, times, error: 0.0, pair_ends: None };
-    let arrival = integrate(system, start, (S::ZERO, t_max), &Settings::new(tolerance), &mut search)?;
+    let arrival = integrate(system, start, (S::ZERO, t_max), settings, &mut search)?;
     let mut times = search.times;
     if times.len() < count {
         let found = times.iter().map(|t| t.to_f64()).collect();
         return Err(ConjugateError::Fewer { found, wanted: count, t_max: t_max.to_f64() });
     }
     times.truncate(count);
-    let error = search.error.max(tolerance);
+    let error = search.error.max(settings.tolerance);
     Ok(ConjugateTimes { times, error, steps: arrival.work.steps, work: arrival.work })
 }
 
@@ -292,6 +292,16 @@ pub fn first_conjugate_times<S: Real>(
     count: usize,
     tolerance: f64,
 ) -> Result<ConjugateTimes<S>, ConjugateError> {
+    first_conjugate_times_by(metric, body_momentum, count, &Settings::new(tolerance))
+}
+
+/// The same with all settings of the integration, among them how many steps it may take.
+pub(super) fn first_conjugate_times_by<S: Real>(
+    metric: &Metric<S>,
+    body_momentum: [S; 3],
+    count: usize,
+    settings: &Settings,
+) -> Result<ConjugateTimes<S>, ConjugateError> {
     check_momentum(&body_momentum)?;
     let system = WithColumns { flow: BodyFlow { inverse_inertia: metric.inverse_inertia() }, parameters: [(), ()] };
     let zero = S::ZERO;
@@ -299,7 +309,7 @@ pub fn first_conjugate_times<S: Real>(
         energy_preserving_variations(metric, &body_momentum).map(|[p1, p2, p3]| [p1, p2, p3, zero, zero, zero]);
     let start = Joined { base: body_momentum, columns: Columns(columns) };
     let t_max = end_of_search(metric, &body_momentum);
-    search(&system, &start, BodyDeterminant, count, t_max, tolerance)
+    search(&system, &start, BodyDeterminant, count, t_max, settings)
 }
 
 #[cfg(test)]

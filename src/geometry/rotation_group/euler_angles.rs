@@ -5,7 +5,8 @@
 //! `M1 = p2 sin Φ3 − q cos Φ3`, `M2 = p2 cos Φ3 + q sin Φ3`, `M3 = p3`, `q = (p1 − p3 cos Φ2)/sin Φ2`.
 //! The article's (4) is the special case of a momentum along e3 (p2 = 0, p1 = |M|).
 //!
-//! The chart fails at sin Φ2 = 0, where only Φ1 ± Φ3 is defined: refused with data.
+//! The chart fails at sin Φ2 = 0, where only Φ1 ± Φ3 is defined: refused with data. A momentum alone may have a limit there
+//! ([`EulerPoint::body_momentum_to_the_poles`]).
 //!
 //! As unit quaternion `(w, x, y, z)`, with σ = (Φ1+Φ3)/2 and δ = (Φ1−Φ3)/2:
 //! `w = cos(Φ2/2) cos σ`, `z = cos(Φ2/2) sin σ`, `y = sin(Φ2/2) cos δ`, `x = −sin(Φ2/2) sin δ`.
@@ -37,6 +38,24 @@ pub enum ChartError {
         /// The size of the momentum.
         g: f64,
     },
+    /// Momenta that no body momentum has at this Φ2.
+    #[error("at Φ2 = {phi2}, p1 = {p1} and p3 = {p3} belong to no finite momentum (at a pole p1 = p3 cos Φ2)")]
+    Impossible {
+        /// Φ2.
+        phi2: f64,
+        /// p1.
+        p1: f64,
+        /// p3.
+        p3: f64,
+    },
+    /// An angle so large that its digits do not say where it is.
+    #[error("{name} = {value} is beyond {largest:e}: take whole turns away", largest = LARGEST_ANGLE)]
+    Far {
+        /// Which.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// A coordinate that is not finite.
     #[error("{name} = {value} must be finite")]
     NotFinite {
@@ -49,6 +68,9 @@ pub enum ChartError {
 
 /// Closer to a pole than this (in sin Φ2) the chart is refused: the momenta would lose half of their digits.
 pub const SMALLEST_SINE: f64 = 1e-8;
+
+/// Angles beyond this are refused where digits matter: neighbouring numbers are more than 1e-4 apart.
+pub const LARGEST_ANGLE: f64 = 1e12;
 
 /// A point of T*SO(3) in Euler angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,6 +105,39 @@ impl<S: Real> EulerPoint<S> {
         let [p1, p2, p3] = self.momenta;
         let (s3, c3) = self.angles[2].sin_cos();
         let q = (p1 - p3 * cosine) / sine;
+        Ok([p2 * s3 - q * c3, p2 * c3 + q * s3, p3])
+    }
+
+    /// The angular momentum in the body frame up to the poles: `q = (p1 ∓ p3)/sin Φ2 ± p3 tan^±1(Φ2/2)`, which does not cancel for
+    /// p1 = ±p3. At Φ2 = 0 itself it is the limit for fixed momenta, q = 0, which exists for p1 = p3 alone (no `f64` but 0 is a pole).
+    ///
+    /// # Errors
+    /// [`ChartError::Impossible`] where that is no finite number; [`ChartError::Far`].
+    pub fn body_momentum_to_the_poles(&self) -> Result<[S; 3], ChartError> {
+        for (name, value) in ["Phi1", "Phi2", "Phi3"].into_iter().zip(&self.angles) {
+            let value = value.to_f64();
+            if !value.is_finite() {
+                return Err(ChartError::NotFinite { name, value });
+            }
+            if value.abs() > LARGEST_ANGLE {
+                return Err(ChartError::Far { name, value });
+            }
+        }
+        let half = S::from_f64(0.5);
+        let (sine, cosine) = self.angles[1].sin_cos();
+        let (half_sine, half_cosine) = (self.angles[1] * half).sin_cos();
+        let [p1, p2, p3] = self.momenta;
+        let (excess, rest) = if cosine >= S::ZERO {
+            (p1 - p3, p3 * half_sine / half_cosine)
+        } else {
+            (p1 + p3, -(p3 * half_cosine / half_sine))
+        };
+        let q = if excess == S::ZERO { rest } else { excess / sine + rest };
+        if !q.is_finite() {
+            let [phi2, p1, p3] = [self.angles[1], p1, p3].map(S::to_f64);
+            return Err(ChartError::Impossible { phi2, p1, p3 });
+        }
+        let (s3, c3) = self.angles[2].sin_cos();
         Ok([p2 * s3 - q * c3, p2 * c3 + q * s3, p3])
     }
 

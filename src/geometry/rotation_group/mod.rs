@@ -6,9 +6,12 @@
 pub mod attitude_route;
 pub mod attitude_trajectory;
 pub mod body_flow;
+pub mod closed_form;
 pub mod conjugate;
 pub mod euler_angles;
+pub mod first_two;
 mod lagrangian_plane;
 pub mod metric;
+pub mod polhode;
 pub mod serret_andoyer_transformation;
 mod vectors;
