@@ -14,8 +14,8 @@ use super::start::Start;
 use crate::numerics::pack::Pack;
 use crate::numerics::real::Real;
 
-/// A coordinate below this (in size) is rounding: near the meridian `r3` then has no sign of its own.
-const COORDINATE_ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// A coordinate below this many ε (in size) is rounding: near the meridian `r3` then has no sign of its own.
+const COORDINATE_ROUNDING: f64 = 32.0;
 /// Relative step of the difference quotients that estimate the condition number.
 const CONDITION_STEP: f64 = 1e-6;
 
@@ -86,19 +86,20 @@ pub(super) struct Points<S> {
     crossings: S,
 }
 
-impl<S: Pack<Scalar = f64>> Points<S> {
-    /// The point of member `i`.
+impl<S: Pack> Points<S> {
+    /// The point of member `i`, rounded to `f64`.
     #[inline(always)]
     pub(super) fn member(&self, i: usize) -> ConjugatePoint {
+        let rounded = |x: S| Real::to_f64(x.lane(i));
         ConjugatePoint {
-            t1: self.t1.lane(i),
-            theta: self.theta.lane(i),
-            phi: self.phi.lane(i),
-            r: self.r.map(|x| x.lane(i)),
-            error: self.error.lane(i),
-            iterations: self.iterations.lane(i) as u32,
-            elliptic_calls: self.elliptic_calls.lane(i) as u32,
-            crossings: self.crossings.lane(i) as u32,
+            t1: rounded(self.t1),
+            theta: rounded(self.theta),
+            phi: rounded(self.phi),
+            r: self.r.map(rounded),
+            error: rounded(self.error),
+            iterations: rounded(self.iterations) as u32,
+            elliptic_calls: rounded(self.elliptic_calls) as u32,
+            crossings: rounded(self.crossings) as u32,
         }
     }
 }
@@ -138,18 +139,22 @@ pub fn conjugate_count(start: &Start, t: f64) -> Result<u32, SpinError> {
 ///
 /// Domain: every [`Start`]. Guarantee: as for [`first_conjugate_point`].
 pub fn cut_point(start: &Start) -> Result<CutPoint, SpinError> {
-    let extremal = extremal(start);
-    let root = solve(&extremal, Quantity::Lambda, 1.0)?;
-    let across = start.mirror() * start.k() * root.sin_beta;
+    cut_point_of(start.mirror(), &extremal(start))
+}
+
+/// [`cut_point`] in any scalar, rounded to `f64`.
+pub(super) fn cut_point_of<S: Real>(mirror: S, extremal: &Extremal<S>) -> Result<CutPoint, SpinError> {
+    let root = solve(extremal, Quantity::Lambda, S::ONE)?;
+    let across = mirror * extremal.k * root.sin_beta;
     let length = hypotenuse(across.abs(), root.cos_beta.abs());
-    let r = [-root.cos_beta / length, 0.0, positive_zero(across) / length];
+    let r = [-root.cos_beta / length, S::ZERO, positive_zero(across) / length];
     Ok(CutPoint {
-        t_cut: root.t,
-        theta: libm::atan2(r[2], r[0]),
-        r,
-        error: root.error,
-        iterations: root.evaluations as u32,
-        elliptic_calls: root.elliptic_calls as u32,
+        t_cut: root.t.to_f64(),
+        theta: r[2].atan2(r[0]).to_f64(),
+        r: r.map(Real::to_f64),
+        error: root.error.to_f64(),
+        iterations: root.evaluations.to_f64() as u32,
+        elliptic_calls: root.elliptic_calls.to_f64() as u32,
     })
 }
 
@@ -157,15 +162,20 @@ pub fn cut_point(start: &Start) -> Result<CutPoint, SpinError> {
 ///
 /// Domain: `t ≥ 0` finite. Guarantee: a few ε of `1 + λ(t)` absolutely; poles and equator are ordinary points.
 pub fn position(start: &Start, t: f64) -> Result<[f64; 3], SpinError> {
-    let extremal = extremal(start);
-    let (state, late) = state_at(&extremal, t)?;
-    let half = Real::floor(state.half_turns / 2.0);
-    let sign = if state.half_turns - 2.0 * half > 0.5 { -1.0 } else { 1.0 };
-    let (sine, cosine) = libm::sincos(state.lambda_rest);
+    position_of(start.mirror(), &extremal(start), t)
+}
+
+/// [`position`] in any scalar.
+pub(super) fn position_of<S: Real>(mirror: S, extremal: &Extremal<S>, t: S) -> Result<[S; 3], SpinError> {
+    let (state, late) = state_at(extremal, t)?;
+    let (two, one) = (S::from_f64(2.0), S::ONE);
+    let half = (state.half_turns / two).floor();
+    let sign = if state.half_turns - two * half > S::from_f64(0.5) { -one } else { one };
+    let (sine, cosine) = state.lambda_rest.sin_cos();
     let h = state.momentum(extremal.k);
-    let r = rotated(&extremal, h, sign * sine, sign * cosine);
-    let moved = shifted(&extremal, h, r, late);
-    Ok([moved[0], moved[1], start.mirror() * moved[2]])
+    let r = rotated(extremal, h, sign * sine, sign * cosine);
+    let moved = shifted(extremal, h, r, late);
+    Ok([moved[0], moved[1], mirror * moved[2]])
 }
 
 /// The momentum `h(t)` in so(3)*.
@@ -194,9 +204,9 @@ pub fn condition_estimate(start: &Start) -> Result<f64, SpinError> {
 }
 
 /// The state whose time is nearest to `t`, and how much later `t` is (a few ε of `t`).
-fn state_at(extremal: &Extremal<f64>, t: f64) -> Result<(State<f64>, f64), SpinError> {
-    if !(t >= 0.0 && t.is_finite()) {
-        return Err(SpinError::OutOfDomain { what: "t", found: t, accepted: "finite and not negative" });
+fn state_at<S: Real>(extremal: &Extremal<S>, t: S) -> Result<(State<S>, S), SpinError> {
+    if !(t >= S::ZERO && t.is_finite()) {
+        return Err(SpinError::OutOfDomain { what: "t", found: t.to_f64(), accepted: "finite and not negative" });
     }
     let state = extremal.state_near(t);
     Ok((state, t - state.t))
@@ -212,8 +222,9 @@ fn rotated<S: Pack>(extremal: &Extremal<S>, h: [S; 3], sine: S, cosine: S) -> [S
 }
 
 /// `v + ω × v·dt`, `ω = (h1/2k², 0, h3/2)`, for a `dt` of the size of rounding errors.
-fn shifted(extremal: &Extremal<f64>, h: [f64; 3], v: [f64; 3], dt: f64) -> [f64; 3] {
-    let (w1, w3) = (h[0] / (2.0 * extremal.k * extremal.k) * dt, h[2] / 2.0 * dt);
+fn shifted<S: Real>(extremal: &Extremal<S>, h: [S; 3], v: [S; 3], dt: S) -> [S; 3] {
+    let two = S::from_f64(2.0);
+    let (w1, w3) = (h[0] / (two * extremal.k * extremal.k) * dt, h[2] / two * dt);
     [v[0] - w3 * v[1], v[1] + w3 * v[0] - w1 * v[2], v[2] + w1 * v[1]]
 }
 
@@ -226,7 +237,7 @@ fn conjugate_position<S: Pack>(mirror: S, extremal: &Extremal<S>, root: &PhaseRo
     // r3 is positive for p > 0, of order p³; below rounding its sign would put θ at −π instead of π. The error of the time
     // moves the point with a speed of at most max(1, 1/k).
     let moved = root.error * root.t * S::ONE.max(S::ONE / extremal.k);
-    let rounding = S::from_f64(COORDINATE_ROUNDING).max(moved);
+    let rounding = (S::from_f64(COORDINATE_ROUNDING) * S::EPSILON).max(moved);
     let r3 = S::select(r3.abs().at_most(rounding), r3.abs(), r3);
     let r3 = S::select(extremal.p.equals(S::ZERO), S::ZERO, r3);
     [r1, r2, positive_zero(mirror * r3)]

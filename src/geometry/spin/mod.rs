@@ -14,6 +14,7 @@
 //! | `expansion` | the Taylor series of the phase about an instant |
 //! | `solve` | the one root of Θ = target, from a bracket that quarter periods give |
 //! | `conjugate` | first conjugate point, conjugate times, cut point, position: the public functions |
+//! | `reference` | the same answers in double-double, rounded at the end |
 //! | `lanes` | first conjugate points of many starts, eight at a time |
 //! | `lift` | the lift of the flow to R³ × so(3)*: the second route, by integration |
 //! | `limits` | the limits p_θ → 0 and p_θ → ∞ and the round case k = 1 |
@@ -32,6 +33,7 @@ pub mod lift_lanes;
 pub mod limits;
 pub mod pendulum;
 pub mod phase;
+pub mod reference;
 pub mod self_intersection;
 pub mod solve;
 pub mod start;

@@ -12,9 +12,10 @@
 //! ε absolutely only, so that the differences of roots cost nothing.
 //!
 //! Sources: B. C. Carlson, Numer. Algorithms 10 (1995) 13-26; the series to degree 7: DLMF 19.36.1 and 19.36.2; the
-//! polynomial for the arc tangent below 7/16: FreeBSD's `s_atan.c` (Sun Microsystems, 1993), error below 2^-57.
+//! polynomial for the arc tangent below 7/16: FreeBSD's `s_atan.c` (Sun Microsystems, 1993), error below 2^-57. Scalars longer than
+//! `f64` take R_C itself.
 
-use crate::numerics::elliptic::carlson::{fraction, r_d_series, r_f_series, second_and_third_kind_series};
+use crate::numerics::elliptic::carlson::{fraction, r_c, r_d_series, r_f_series, second_and_third_kind_series};
 use crate::numerics::pack::{Mask, Pack};
 
 /// Duplications after which a call gives up, as in [`super::carlson`].
@@ -28,6 +29,10 @@ const TAYLOR_REACH: f64 = 1e-3;
 #[inline(always)]
 fn r_c_circular<S: Pack>(e: S) -> S {
     let c = S::from_f64;
+    // The polynomials are as long as f64 needs.
+    if S::EPSILON.less(c(f64::EPSILON)).all() {
+        return r_c(S::ONE, S::ONE + e);
+    }
     let small = e.at_most(c(TAYLOR_REACH));
     let taylor = S::ONE
         - e * (fraction::<S>(1.0, 3.0)
