@@ -14,7 +14,7 @@ use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::effects::product::{failed, product};
 use crate::geometry::spin::conjugate::ConjugatePoint;
-use crate::geometry::spin::reference::first_conjugate_place;
+use crate::geometry::spin::place::first_conjugate_place;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
 use crate::table::Table;

@@ -33,6 +33,7 @@ pub mod lift_lanes;
 pub mod limits;
 pub mod pendulum;
 pub mod phase;
+pub mod place;
 pub mod reference;
 pub mod self_intersection;
 pub mod solve;
