@@ -4,7 +4,7 @@
 //! What is a choice and not a result (where samples stand, how a curve is cut into pieces) is made in `f64` in either: so that the rows of a table
 //! are the same at all levels, and their numbers can be compared one by one.
 
-use crate::contract::accuracy::{Accuracy, Arithmetic, REFERENCE};
+use crate::contract::accuracy::{ARTICLE, Accuracy, Arithmetic, REFERENCE};
 
 /// Of the error asked for, the part that steps in double-double may make: they cost little more for it, and their errors add up.
 const SHARE: f64 = 0.01;
@@ -31,6 +31,16 @@ pub(crate) use in_arithmetic;
 /// Guarantee: below the ε of `f64`, so that a tolerance alone says its arithmetic ([`of_tolerance`]); never below [`REFERENCE`].
 pub fn long_tolerance(accuracy: Accuracy) -> Option<f64> {
     (accuracy.arithmetic() == Arithmetic::DoubleDouble).then(|| (SHARE * accuracy.relative_error()).max(REFERENCE))
+}
+
+/// The relative error per step that a level asks for as it is, or in double-double.
+pub fn step_error(accuracy: Accuracy) -> f64 {
+    long_tolerance(accuracy).unwrap_or_else(|| accuracy.relative_error())
+}
+
+/// The same for kinds that integrate in `f64` only: at least [`ARTICLE`].
+pub fn short_step_error(accuracy: Accuracy) -> f64 {
+    accuracy.relative_error().max(ARTICLE)
 }
 
 /// The arithmetic that an integration with this relative error per step takes: `f64` can't give less than its ε.

@@ -99,6 +99,7 @@ impl Definition for Fig1 {
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let Params { scene, picture, other_body } = params;
         let body = scene.metric.serret_andoyer.into();
         let origins = Inertia::origins("serret-andoyer");

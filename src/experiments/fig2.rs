@@ -81,6 +81,7 @@ impl Definition for Fig2 {
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let Params { scene, picture } = params;
         let potential = Potential {
             body: scene.metric.serret_andoyer.into(),

@@ -149,6 +149,7 @@ impl Definition for Fig3 {
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let Params { scene, spacing, wave_front, picture } = params;
         let body = scene.metric.serret_andoyer.into();
         let spacing = Spacing { smallest: spacing.smallest, cusp: spacing.cusp, tail: spacing.tail };

@@ -141,6 +141,7 @@ impl Definition for Fig7 {
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let (sweep, p_theta) = (&params.scene.metric.spin.k, params.scene.start.p_theta);
         for (index, k) in sweep.values().into_iter().enumerate() {
             if params.scene.asks_for(Effect::Geodesics) {

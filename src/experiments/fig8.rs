@@ -162,6 +162,7 @@ impl Definition for Fig8 {
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let (sweep, p_theta) = (&params.scene.metric.spin.k, params.scene.start.p_theta);
         for index in 0..sweep.count() {
             ask_for_branch(nodes, (sweep, index), p_theta, params.scene.accuracy)?;

@@ -199,6 +199,7 @@ impl Definition for Fig9 {
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let scene = &params.scene;
         let asks = |effect| scene.asks_for(effect);
         let (tolerance, allowed) = (tolerance(scene.accuracy), allowed(scene.accuracy));

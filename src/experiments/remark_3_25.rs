@@ -95,6 +95,7 @@ impl Definition for Remark {
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let body = params.scene.metric.serret_andoyer.into();
         let origins = Inertia::origins("serret-andoyer");
         let with = |key: &str| [origins.clone(), vec![("phi0", key.to_owned())]].concat();

@@ -150,6 +150,7 @@ impl Definition for Theorem {
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let Params { scene, supremum, part_2, counterexample } = params;
         let body = scene.metric.serret_andoyer.into();
         let metric = Inertia::origins("serret-andoyer");
