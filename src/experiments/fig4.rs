@@ -119,7 +119,7 @@ impl Definition for Fig4 {
                 let first = SwitchPoints { p_theta: value, k_low, k_high };
                 let first = nodes.add(SWITCHES, &axis, first, &[], &origins)?;
                 let input = [(switch_points_by_integration::INPUT, &first)];
-                nodes.add(SWITCHES_CHECK, &axis, SwitchPointsByIntegration {}, &input, &[])?;
+                nodes.add(SWITCHES_CHECK, &axis, SwitchPointsByIntegration::new(scene.accuracy), &input, &[("asked", "scene.accuracy".to_owned())])?;
                 switches.get_or_insert(first);
             }
         }

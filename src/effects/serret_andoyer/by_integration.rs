@@ -119,14 +119,22 @@ impl Compute for ConjugatePointsByIntegration {
                     let long = integrate::<DoubleDouble>(&self.body, start, 2.0 * t1, self.tolerance)?;
                     return Ok(Found { double_double: true, ..long });
                 }
-                let short = integrate::<f64>(&self.body, start, 2.0 * t1, self.tolerance)?;
-                if (short.t1 - t1).abs() <= TENTH * self.allowed * t1.abs() {
-                    return Ok(short);
+                let near = |found: &Found| (found.t1 - t1).abs() <= TENTH * self.allowed * t1.abs();
+                let mut before = Work::default();
+                // Below full accuracy what the separatrix multiplies is the error of steps: then smaller steps do.
+                let full = (self.tolerance > f64::EPSILON).then_some(f64::EPSILON);
+                for tolerance in [Some(self.tolerance), full].into_iter().flatten() {
+                    // An extremal that is lost near the separatrix has no conjugate time, or a late one.
+                    let Ok(short) = integrate::<f64>(&self.body, start, 2.0 * t1, tolerance) else { continue };
+                    if near(&short) {
+                        return Ok(Found { work: before + short.work, ..short });
+                    }
+                    before += short.work;
                 }
                 // Errors of steps grow by less than 1/δ: a hundredth of what is allowed is left for them.
                 let tolerance = (0.01 * self.allowed * start.delta).max(DOUBLE_DOUBLE_TOLERANCE);
                 let long = integrate::<DoubleDouble>(&self.body, start, 2.0 * t1, tolerance)?;
-                Ok(Found { work: short.work + long.work, double_double: true, ..long })
+                Ok(Found { work: before + long.work, double_double: true, ..long })
             })
             .collect::<Result<Vec<Found>, NodeError>>()?;
         let pairs = |first: &[f64], second: fn(&Found) -> f64, scale: fn(f64) -> f64| -> Vec<f64> {

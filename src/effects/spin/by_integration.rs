@@ -115,12 +115,19 @@ impl ConjugateLocusByIntegration {
             return Ok(Row { double_double: true, ..row });
         }
         if rounding(p_theta, slope) <= SHARE * self.allowed {
-            let row = integrate::<f64>(self.k, p_theta, t_max, self.tolerance)?;
-            // Between the few starts of a list secants tell little about slopes: what rounding did there is seen here.
-            if (row.t1 / t1 - 1.0).abs() <= self.allowed {
-                return Ok(row);
+            // Below full accuracy what an extremal near the meridian multiplies is the error of steps: then smaller steps do.
+            let full = (self.tolerance > f64::EPSILON).then_some(f64::EPSILON);
+            for tolerance in [Some(self.tolerance), full].into_iter().flatten() {
+                let row = match integrate::<f64>(self.k, p_theta, t_max, tolerance) {
+                    Err(_) if tolerance > f64::EPSILON => continue,
+                    row => row?,
+                };
+                // Between the few starts of a list secants tell little about slopes: what rounding did there is seen here.
+                if (row.t1 / t1 - 1.0).abs() <= self.allowed {
+                    return Ok(Row { work: before.plus(row.work), ..row });
+                }
+                before = before.plus(row.work);
             }
-            before = row.work;
         }
         let row = integrate::<DoubleDouble>(self.k, p_theta, t_max, DOUBLE_DOUBLE_TOLERANCE)?;
         Ok(Row { double_double: true, work: before.plus(row.work), ..row })

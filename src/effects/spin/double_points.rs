@@ -290,6 +290,7 @@ impl Compute for DoublePoints {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effects::spin::branch::sample;
 
     const MOMENTA: Momenta = Momenta { from: 1e-9, to: 1e4, step: 0.1 };
 

@@ -50,7 +50,7 @@ pub const KIND: Kind = Kind {
     measurement: false,
 };
 
-/// Error of a drawn point from which on f64 is not enough.
+/// Error of a drawn point from which on f64 is not enough, unless a larger one was asked for.
 const SHOWS: f64 = 1e-11;
 /// Time between samples before any halving.
 const INTERVAL: f64 = 0.5;
@@ -152,7 +152,7 @@ impl Geodesics {
         let t1 = conjugate_point_in(arithmetic, self.k, p_theta)?.t1;
         let (samples, work) = if arithmetic == Arithmetic::DoubleDouble {
             trajectory::<DoubleDouble>(self.k, p_theta, t1, self.step, self.tolerance)?
-        } else if rounding(p_theta, slope) * t1 > SHOWS {
+        } else if rounding(p_theta, slope) * t1 > SHOWS.max(self.tolerance) {
             trajectory::<DoubleDouble>(self.k, p_theta, t1, self.step, DOUBLE_DOUBLE_TOLERANCE)?
         } else {
             trajectory::<f64>(self.k, p_theta, t1, self.step, self.tolerance)?
