@@ -83,7 +83,8 @@ impl Compute for ConjugatePointVersusKByIntegration {
             (d1 * d1 + d2 * d2 + d3 * d3).sqrt()
         };
         let positions: Vec<f64> = rows.iter().enumerate().map(apart).collect();
-        let allowed: Vec<f64> = error.iter().map(|error| error.max(ALLOWED * self.accuracy).max(ROUNDED_TWICE)).collect();
+        let allowed: Vec<f64> =
+            error.iter().map(|error| error.max(ALLOWED * self.accuracy).max(ROUNDED_TWICE)).collect();
         let table =
             Table::builder(KIND.name, "first conjugate times and points by integration, beside the closed form's")
                 .column("k", "1", "ratio of the couplings", k)

@@ -47,7 +47,8 @@ fn on_spin(reader: &Reader<'_>) -> Result<Answer, PointError> {
         numbers: numbers.map(Some).to_vec(),
         reason: None,
         error: Some(point.error),
-        route: "closed form: the only solution of Theta = pi (monotone phase), in double-double arithmetic, rounded".into(),
+        route: "closed form: the only solution of Theta = pi (monotone phase), in double-double arithmetic, rounded"
+            .into(),
         work: Work { elliptic_calls: u64::from(point.elliptic_calls), roots_solved: 1, rows: 1, ..Work::default() },
     })
 }
@@ -114,8 +115,7 @@ fn on_rotation_group(reader: &Reader<'_>, tolerance: f64) -> Result<Answer, Poin
     let number = |key, accepted| reader.number(key, accepted).map(DoubleDouble::from);
     let metric = Inertia::new(number("A", INERTIA)?, number("B", INERTIA)?, number("C", INERTIA)?).map_err(refused)?;
     let momentum = momentum(reader)?;
-    let route =
-        "integration of momentum and Jacobi fields in the body frame; eigenphases; in double-double arithmetic, rounded";
+    let route = "integration of momentum and Jacobi fields in the body frame; eigenphases; in double-double arithmetic, rounded";
     let answered = |times: &[f64], reason, error, work: Work| Answer {
         numbers: (0..WANTED).map(|index| times.get(index).copied()).collect(),
         reason,

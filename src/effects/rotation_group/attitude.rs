@@ -88,7 +88,8 @@ impl AttitudeTrajectory {
         let instants: Vec<S> = times.iter().map(|t| S::from_f64(*t)).collect();
         let point = self.start.point::<S>();
         let momentum = point.body_momentum().map_err(failed(&named()))?;
-        let (angles, on_angles) = euler_angles_at(&metric, &point, &instants, self.tolerance).map_err(failed(&named()))?;
+        let (angles, on_angles) =
+            euler_angles_at(&metric, &point, &instants, self.tolerance).map_err(failed(&named()))?;
         let (states, on_states) =
             attitude_at(&metric, point.attitude(), momentum, &instants, self.tolerance).map_err(failed(&named()))?;
         // E3 in space is the third column of R, which takes components in the body to components in space.

@@ -111,7 +111,11 @@ impl StartOfConjugateTime {
             let next = at - off * (at - before) / (off - off_before);
             steps += 1;
             if steps > STEPS || !next.is_finite() {
-                return Err(NodeError::new(format!("no Phi2 near {:?} has the conjugate time {:?}", given.to_f64(), self.t1)));
+                return Err(NodeError::new(format!(
+                    "no Phi2 near {:?} has the conjugate time {:?}",
+                    given.to_f64(),
+                    self.t1
+                )));
             }
             (before, off_before) = (at, off);
             (at, off) = (next, time(next)? - t1);

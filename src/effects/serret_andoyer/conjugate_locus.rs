@@ -87,6 +87,9 @@ pub const KIND: Kind = Kind {
     measurement: false,
 };
 
+/// An extremal and its first conjugate point.
+pub type OnExtremal<S> = (Extremal<S>, ConjugatePoint<S>);
+
 /// The first conjugate points of these starts.
 ///
 /// # Errors
@@ -94,7 +97,7 @@ pub const KIND: Kind = Kind {
 pub fn conjugate_points<S: Real>(
     metric: &Metric<S>,
     starts: &[ClairautStart],
-) -> Result<Vec<(Extremal<S>, ConjugatePoint<S>)>, NodeError> {
+) -> Result<Vec<OnExtremal<S>>, NodeError> {
     let point = |start: &ClairautStart| {
         let extremal = start.extremal(metric)?;
         let point = first_conjugate_point(&extremal).map_err(failed(&start.to_string()))?;
@@ -104,7 +107,7 @@ pub fn conjugate_points<S: Real>(
 }
 
 /// The work of closed-form conjugate points.
-pub fn closed_form_work<S: Real>(points: &[(Extremal<S>, ConjugatePoint<S>)]) -> Work {
+pub fn closed_form_work<S: Real>(points: &[OnExtremal<S>]) -> Work {
     let elliptic_calls = points.iter().map(|(_, point)| point.elliptic_calls as u64).sum();
     let roots_solved = points.iter().filter(|(_, point)| point.iterations > 0).count() as u64;
     Work { elliptic_calls, roots_solved, ..Work::default() }
@@ -136,8 +139,7 @@ impl ConjugateLocus {
         let ascending = deltas.iter().rev().map(start(1));
         let starts: Vec<ClairautStart> = ascending.chain(deltas.iter().skip(1).map(start(-1))).collect();
         let points = conjugate_points(&self.body.metric::<S>()?, &starts)?;
-        let column =
-            |f: fn(&(Extremal<S>, ConjugatePoint<S>)) -> S| points.iter().map(|row| f(row).to_f64()).collect::<Vec<_>>();
+        let column = |f: fn(&OnExtremal<S>) -> S| points.iter().map(|row| f(row).to_f64()).collect::<Vec<_>>();
         let table = Table::builder("conjugate-locus", "first conjugate points of one start, p_θ > 0")
             .column("phi0", "length", "distance of the start from the equator", vec![self.phi0; starts.len()])
             .column("delta", "1", "B p_θ² − 1", starts.iter().map(|s| s.delta).collect::<Vec<_>>())

@@ -99,7 +99,14 @@ impl CurvatureProfile {
         add("z_minus", z_minus, ALGEBRAIC, inverse, "z−, the value of z where G vanishes", formula);
         add("z_plus", z_plus, ALGEBRAIC, inverse, "z+, the other root, beyond 2B", "z− z+ = 12ABC/(A+B+C)");
         add("half_width", width, ALGEBRAIC, length, "K(k)/α, half the width of the strip", "Carlson's R_F");
-        add("curvature_period", number(2.0) * width, ALGEBRAIC, length, "2K(k)/α, the period of G and μ", "Carlson's R_F");
+        add(
+            "curvature_period",
+            number(2.0) * width,
+            ALGEBRAIC,
+            length,
+            "2K(k)/α, the period of G and μ",
+            "Carlson's R_F",
+        );
         let at_minimum = number(2.0) * metric.z(profile.minimum_at);
         add("z_at_minimum", at_minimum, ELLIPTIC, inverse, "z(φ*), from φ*", "2(A cn² + B sn²) at φ*");
         add("z_at_minimum_corrected", z_star, ALGEBRAIC, inverse, "2 z− z+/(z− + z+)", "6ABC/(AB+AC+BC)");

@@ -79,8 +79,18 @@ impl Cusps {
             .column("phi0", "length", "distance of the start from the equator", self.phi0.clone())
             .column("delta", "1", "B p_θ² − 1 with p_θ = √μ(φ0)", rows.iter().map(|r| r.0.to_f64()).collect::<Vec<_>>())
             .column("branch", "1", "sign of φ' (without meaning here)", vec![1_i64; rows.len()])
-            .column("p_theta", "1", "Clairaut's constant", rows.iter().map(|r| r.1.p_theta.to_f64()).collect::<Vec<_>>())
-            .column("t1", "length", "first conjugate time", rows.iter().map(|r| r.1.half_period.to_f64()).collect::<Vec<_>>())
+            .column(
+                "p_theta",
+                "1",
+                "Clairaut's constant",
+                rows.iter().map(|r| r.1.p_theta.to_f64()).collect::<Vec<_>>(),
+            )
+            .column(
+                "t1",
+                "length",
+                "first conjugate time",
+                rows.iter().map(|r| r.1.half_period.to_f64()).collect::<Vec<_>>(),
+            )
             .column("theta", "rad", "θ of the cusp", rows.iter().map(|r| r.1.first_return.to_f64()).collect::<Vec<_>>())
             .column("phi", "length", "φ of the cusp", self.phi0.iter().map(|phi0| -phi0).collect::<Vec<_>>())
             .build()

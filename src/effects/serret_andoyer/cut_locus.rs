@@ -73,7 +73,10 @@ impl CutLocus {
         let metric = self.body.metric::<S>()?;
         let rows: Vec<Period<S>> = deltas
             .par_iter()
-            .map(|delta| period(&metric, Clairaut::Delta(delta_at(&metric, self.phi0, *delta))).map_err(failed(&format!("delta = {delta:?}"))))
+            .map(|delta| {
+                period(&metric, Clairaut::Delta(delta_at(&metric, self.phi0, *delta)))
+                    .map_err(failed(&format!("delta = {delta:?}")))
+            })
             .collect::<Result<_, _>>()?;
         let column = |f: fn(&Period<S>) -> S| rows.iter().map(|row| f(row).to_f64()).collect::<Vec<_>>();
         let table = Table::builder("cut-locus", "cut points of one start, p_θ > 0")

@@ -123,8 +123,22 @@ impl NamedStart {
         add("counterexample_ratio", bounds.ratio.to_f64(), error, "1", "t1 M/K of the named start, t > 0", closed);
         add("counterexample_ratio_backward", backward.to_f64(), error, "1", "the same backward in time", closed);
         let phase = extremal.psi0() / extremal.complete_k();
-        add("counterexample_phase", phase.to_f64(), error, "1", "ψ0/K of the named start", "incomplete elliptic integral");
-        add("counterexample_time", time.t1.to_f64(), error, "time", "first conjugate time t1 of the named start", closed);
+        add(
+            "counterexample_phase",
+            phase.to_f64(),
+            error,
+            "1",
+            "ψ0/K of the named start",
+            "incomplete elliptic integral",
+        );
+        add(
+            "counterexample_time",
+            time.t1.to_f64(),
+            error,
+            "time",
+            "first conjugate time t1 of the named start",
+            closed,
+        );
         add(
             "counterexample_time_by_integration",
             second.t1.to_f64(),

@@ -71,7 +71,10 @@ impl Period {
         let metric = self.body.metric::<S>()?;
         let rows: Vec<Found<S>> = deltas
             .par_iter()
-            .map(|delta| period(&metric, Clairaut::Delta(delta_at(&metric, 0.0, *delta))).map_err(failed(&format!("delta = {delta:?}"))))
+            .map(|delta| {
+                period(&metric, Clairaut::Delta(delta_at(&metric, 0.0, *delta)))
+                    .map_err(failed(&format!("delta = {delta:?}")))
+            })
             .collect::<Result<_, _>>()?;
         let column = |f: fn(&Found<S>) -> S| rows.iter().map(|row| f(row).to_f64()).collect::<Vec<_>>();
         let table = Table::builder("period", "period and first return of oscillating extremals")

@@ -83,11 +83,7 @@ pub fn branch_of(arithmetic: Arithmetic, k: f64, momenta: &[f64]) -> Result<(Vec
 ///
 /// # Errors
 /// As [`sample`].
-pub fn sample_in(
-    arithmetic: Arithmetic,
-    k: f64,
-    momenta: &Momenta,
-) -> Result<(Vec<BranchPoint>, Work), NodeError> {
+pub fn sample_in(arithmetic: Arithmetic, k: f64, momenta: &Momenta) -> Result<(Vec<BranchPoint>, Work), NodeError> {
     let (sampled, work) = sample(k, momenta)?;
     if arithmetic == Arithmetic::F64 {
         return Ok((sampled, work));

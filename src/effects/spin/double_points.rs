@@ -195,11 +195,7 @@ pub fn find(k: f64, branch: &[BranchPoint]) -> Result<(Vec<DoublePoint>, Work), 
 ///
 /// # Errors
 /// As [`find`].
-pub fn find_in(
-    arithmetic: Arithmetic,
-    k: f64,
-    branch: &[BranchPoint],
-) -> Result<(Vec<DoublePoint>, Work), NodeError> {
+pub fn find_in(arithmetic: Arithmetic, k: f64, branch: &[BranchPoint]) -> Result<(Vec<DoublePoint>, Work), NodeError> {
     let away = |row: &&BranchPoint| distance(row.point.r, branch[0].point.r) > AT_CUSP;
     let rows: Vec<&BranchPoint> = branch.iter().skip_while(|row| !away(row)).collect();
     let mut chart: Vec<(f64, f64)> = rows.iter().map(|row| (row.theta, row.point.phi)).collect();
