@@ -50,6 +50,11 @@ pub trait Definition: 'static {
     /// Puts the command line's accuracy in place of the config's.
     fn set_accuracy(params: &mut Self::Params, accuracy: Accuracy);
 
+    /// The accuracy that the whole was made with, for its caption; none where an experiment is about several.
+    fn accuracy(_: &Self::Params) -> Option<Accuracy> {
+        None
+    }
+
     /// Which of the scene's effects are this experiment's own, and what else its metric is asked for: that is computed and drawn beside it.
     fn asked(_: &Self::Params) -> Asked {
         Asked::own()
@@ -269,7 +274,11 @@ fn read_tables(inputs: &Inputs) -> Result<Tables, NodeError> {
 fn drawn<D: Definition>(params: &D::Params, tables: &Tables) -> Result<Picture, NodeError> {
     let asked = D::asked(params);
     let own = if asked.own { D::picture(params, tables)? } else { Picture::new(Width::Double, LEGEND_MM, D::TITLE) };
-    asked.drawn_under(own, tables)
+    let mut picture = asked.drawn_under(own, tables)?;
+    if let Some(accuracy) = D::accuracy(params) {
+        picture.caption = format!("{} Accuracy: {}.", picture.caption, accuracy.in_words()).trim_start().to_owned();
+    }
+    Ok(picture)
 }
 
 /// The node that draws.

@@ -170,6 +170,10 @@ impl Definition for Fig5 {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn asked(params: &Params) -> Asked {
         Asked::spin(&params.scene, &OWN, Some(params.scene.start.p_theta))
     }

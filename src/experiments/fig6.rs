@@ -130,6 +130,10 @@ impl Definition for Fig6 {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn asked(params: &Params) -> Asked {
         Asked::spin(&params.scene, &OWN, None)
     }

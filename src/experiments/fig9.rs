@@ -198,6 +198,10 @@ impl Definition for Fig9 {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
         nodes.at(params.scene.accuracy);
         let scene = &params.scene;
