@@ -7,7 +7,9 @@
 //! What it does not know: where files lie, how anything was computed, how the program ends (it names the class of the
 //! exit code only).
 
+pub mod difference;
 pub mod golden;
+pub mod movement;
 mod number;
 pub mod reference;
 pub mod report;

@@ -16,6 +16,7 @@ use std::path::PathBuf;
   polhode check                         goldens, references and claims: the verdict table
   polhode point spin k=0.8 p_theta=1    one first conjugate point
   polhode point serret-andoyer A=1.5 B=2 C=2.8 phi0=0 delta=1e-3 branch=ascending
+  polhode accuracy fig7                 what accuracy costs in time, and how far each level is off
   polhode show fig7/conjugate-locus/k=0.8 --csv
   polhode verify --sample 10            re-hash the store and compute ten nodes again
   polhode init my-paper                 a folder to work in, outside the repository"
@@ -43,6 +44,8 @@ pub enum Verb {
     Show(ShowArguments),
     /// Compute the first conjugate point of one extremal, or of a table of them
     Point(PointArguments),
+    /// Measure what accuracy costs in time on this machine, and how far each level is from the reference
+    Accuracy(AccuracyArguments),
     /// Write a new experiment, ready to run: a module and its config, or the config of a scene
     New(NewArguments),
     /// Make a folder to work in: the article's configs, ready to edit and run
@@ -71,8 +74,8 @@ pub struct PlaceArguments {
     /// Folder of the store [default: .polhode/ beside experiments/]
     #[arg(long, value_name = "DIR")]
     pub store: Option<PathBuf>,
-    /// Accuracy in place of the configs': draft (1e-4), article (1e-14) or a relative error; outputs of another level than
-    /// article go to OUT/LEVEL/
+    /// Accuracy in place of the configs': draft (1e-4), article (1e-14), reference (double-double) or a relative error from
+    /// 1e-28 to 0.1; outputs of another level than article go to OUT/LEVEL/
     #[arg(long, value_name = "LEVEL")]
     pub accuracy: Option<String>,
 }
@@ -246,6 +249,7 @@ pub struct ShowArguments {
   polhode point serret-andoyer A=1.5 B=2 C=2.8 y0=0.5 p_x=1.1 p_y=0.3 --json
   polhode point rotation-group A=1.5 B=2 C=2.8 H1=-1 H2=-0.3 H3=0.3
   polhode point rotation-group A=1.5 B=2 C=2.8 Phi2=2.8506 Phi3=-0.32175 p1=0 p2=0 p3=0.3155946
+  polhode point spin k=1.2 p_theta=1e-3 --accuracy reference          in double-double arithmetic, rounded
   polhode point spin k=0.8 --input starts.csv --output points.csv     a table of starts, columns named as the keys")]
 pub struct PointArguments {
     /// serret-andoyer, spin or rotation-group
@@ -263,13 +267,44 @@ pub struct PointArguments {
     /// Rows computed at once [default: the number of cores]
     #[arg(long, short, value_name = "N")]
     pub jobs: Option<std::num::NonZeroUsize>,
-    /// draft, article or a relative error
+    /// draft, article, reference (double-double arithmetic, rounded) or a relative error from 1e-28 to 0.1
     #[arg(long, value_name = "LEVEL", default_value = "article")]
     pub accuracy: String,
     /// Machine-readable output on stdout
     #[arg(long)]
     pub json: bool,
     /// Plain output: no progress line even on a terminal
+    #[arg(long)]
+    pub no_progress: bool,
+}
+
+/// Options of `accuracy`.
+#[derive(Args, Debug, Default)]
+#[command(before_help = "Examples:
+  polhode accuracy fig7                              draft, 1e-6 … 1e-12, article, reference: time, work, how far off
+  polhode accuracy                                   the whole article; takes some minutes
+  polhode accuracy fig3 --levels draft,article       only these, beside the reference
+  polhode accuracy fig7 --json
+
+Each level is computed from nothing in a store of its own, one after another; figures and store stay as they are. The plot goes to
+OUT/measured/accuracy-TARGET.svg.")]
+pub struct AccuracyArguments {
+    /// An experiment, an output or a node; the whole article where none is given
+    #[arg(value_name = "TARGET")]
+    pub target: Option<String>,
+    /// The levels beside the reference [default: draft,1e-6,1e-8,1e-10,1e-12,article]
+    #[arg(long, value_name = "LEVEL,…", value_delimiter = ',')]
+    pub levels: Vec<String>,
+    /// Folder of the experiment configs [default: experiments/ of the nearest ancestor that has one]
+    #[arg(long, value_name = "DIR")]
+    pub experiments: Option<PathBuf>,
+    /// Folder of the outputs, whose measured/ takes the plot [default: figures/ beside experiments/]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Machine-readable output on stdout
+    #[arg(long)]
+    pub json: bool,
+    /// No progress on stderr
     #[arg(long)]
     pub no_progress: bool,
 }

@@ -4,7 +4,8 @@ use crate::cli::arguments::{Arguments, Verb};
 use crate::cli::console::{self, ConsoleError};
 use crate::cli::exit::Exit;
 use crate::cli::{
-    check, completions, figures, gc, graph, init, list, log, new, point, schema, show, verify, version, watch, why,
+    accuracy, check, completions, figures, gc, graph, init, list, log, new, point, schema, show, verify, version,
+    watch, why,
 };
 use crate::numerics::lanes::dispatch::from_environment;
 use clap::Parser;
@@ -63,6 +64,7 @@ fn verb(verb: &Verb) -> Result<Exit, ConsoleError> {
         Verb::Graph(arguments) => graph::run(arguments),
         Verb::Show(arguments) => show::run(arguments),
         Verb::Point(arguments) => point::run(arguments),
+        Verb::Accuracy(arguments) => accuracy::run(arguments),
         Verb::New(arguments) => new::run(arguments),
         Verb::Init(arguments) => init::run(arguments),
         Verb::Verify(arguments) => verify::run(arguments),

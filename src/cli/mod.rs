@@ -1,5 +1,7 @@
 //! The command `polhode`: arguments, one file a verb, progress, exit codes.
 
+pub mod accuracy;
+pub mod accuracy_picture;
 pub mod arguments;
 pub mod check;
 pub mod collected;

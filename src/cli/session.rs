@@ -180,7 +180,8 @@ impl Session {
 
 /// The folders below the output folder that hold other things: measurements, the article page, other levels of accuracy.
 fn unscanned(workspace: &Workspace) -> Vec<String> {
-    let mut folders = vec![MEASURED_FOLDER.to_owned(), "article".to_owned(), Accuracy::Draft.to_string()];
+    let mut folders = vec![MEASURED_FOLDER.to_owned(), "article".to_owned()];
+    folders.extend([Accuracy::Draft, Accuracy::Reference].map(|level| level.to_string()));
     for entry in std::fs::read_dir(&workspace.out).into_iter().flatten().flatten() {
         if let Ok(name) = entry.file_name().into_string()
             && name.parse::<Accuracy>().is_ok()

@@ -1,7 +1,8 @@
 //! A node: one piece of work with declared parameters and inputs, and what it gives back.
 
+use super::accuracy::Arithmetic;
 use super::digest::Digest;
-use super::manifest::{self, Line, NotDescribable};
+use super::manifest::{self, Leaf, Line, NotDescribable, Part};
 use super::work::Work;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -149,7 +150,40 @@ pub trait Compute: Send + Sync {
     /// # Errors
     /// Whatever keeps the result from being right: nothing is half trusted.
     fn run(&self, inputs: &Inputs) -> Result<Product, NodeError>;
+
+    /// Whether [`Compute::run_in`] heeds its arithmetic. Kinds that are computed in one arithmetic only, and those whose own parameters say
+    /// which, leave this as it is; their docs say why.
+    fn heeds_arithmetic(&self) -> bool {
+        false
+    }
+
+    /// Does the work in an arithmetic; in `f64` the same as [`Compute::run`].
+    ///
+    /// # Errors
+    /// Those of [`Compute::run`].
+    fn run_in(&self, _: Arithmetic, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run(inputs)
+    }
 }
+
+/// A node's work in an arithmetic of its own.
+struct InArithmetic {
+    arithmetic: Arithmetic,
+    compute: Arc<dyn Compute>,
+}
+
+impl Compute for InArithmetic {
+    fn kind(&self) -> &'static Kind {
+        self.compute.kind()
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.compute.run_in(self.arithmetic, inputs)
+    }
+}
+
+/// The parameter that names an arithmetic other than `f64`.
+pub const ARITHMETIC: &str = "arithmetic";
 
 /// An input as a node declares it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -185,6 +219,17 @@ impl Node {
     pub fn new<C: Compute + Serialize + 'static>(address: Address, compute: C) -> Result<Self, NotDescribable> {
         let params = manifest::describe(&compute)?;
         Ok(Self { address, params, inputs: Vec::new(), origins: Vec::new(), compute: Arc::new(compute) })
+    }
+
+    /// The same in an arithmetic, where its kind heeds that: then it is a parameter, unless it is `f64`.
+    #[must_use]
+    pub fn in_arithmetic(mut self, arithmetic: Arithmetic) -> Self {
+        if arithmetic != Arithmetic::F64 && self.compute.heeds_arithmetic() {
+            let leaf = Leaf::Text(arithmetic.name().to_owned());
+            self.params.push(Line { part: Part::Param, path: ARITHMETIC.to_owned(), leaf });
+            self.compute = Arc::new(InArithmetic { arithmetic, compute: self.compute });
+        }
+        self
     }
 
     /// Declares an input.

@@ -7,12 +7,16 @@
 //! of an elementary equation.
 
 use super::product::{failed, input_table, product};
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::sweep::Sweep;
 use crate::contract::work::Work;
 use crate::geometry::spin::conjugate::{ConjugatePoint, first_conjugate_point};
 use crate::geometry::spin::limits::meridian_conjugate_time;
+use crate::geometry::spin::reference::first_conjugate_point_to_reference;
 use crate::geometry::spin::start::Start;
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::real::Real;
 use crate::table::Table;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -64,7 +68,15 @@ impl Compute for ConjugatePointVersusK {
         &KIND
     }
 
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
     fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, inputs: &Inputs) -> Result<Product, NodeError> {
         let mut values: Vec<(f64, bool)> = self.k.values().into_iter().map(|k| (k, true)).collect();
         if self.refined {
             let switches = input_table(inputs, SWITCHES)?;
@@ -76,7 +88,7 @@ impl Compute for ConjugatePointVersusK {
         values.dedup_by(|later, earlier| later.0 == earlier.0);
         let rows = values
             .into_par_iter()
-            .map(|(k, regular)| row(k, regular, self.p_theta))
+            .map(|(k, regular)| row(arithmetic, k, regular, self.p_theta))
             .collect::<Result<Vec<Row>, NodeError>>()?;
         let work = Work {
             elliptic_calls: rows.iter().map(|row| u64::from(row.point.elliptic_calls)).sum(),
@@ -127,11 +139,17 @@ impl Compute for ConjugatePointVersusK {
     }
 }
 
-fn row(k: f64, regular: bool, p_theta: f64) -> Result<Row, NodeError> {
+fn row(arithmetic: Arithmetic, k: f64, regular: bool, p_theta: f64) -> Result<Row, NodeError> {
     let doing = || format!("k = {k:?}, p_theta = {p_theta:?}");
     let start = Start::new(k, p_theta).map_err(failed(&doing()))?;
-    let point = first_conjugate_point(&start).map_err(failed(&doing()))?;
-    let limit = meridian_conjugate_time(k).map_err(failed(&doing()))?;
+    let (point, limit) = match arithmetic {
+        Arithmetic::F64 => (first_conjugate_point(&start), meridian_conjugate_time(k)),
+        Arithmetic::DoubleDouble => {
+            let limit = meridian_conjugate_time(DoubleDouble::from(k)).map(Real::to_f64);
+            (first_conjugate_point_to_reference(&start), limit)
+        }
+    };
+    let (point, limit) = (point.map_err(failed(&doing()))?, limit.map_err(failed(&doing()))?);
     // The round speed |ω × r| is at most |ω|, |ω|² = h3²/4 + h1²/(4k⁴) ≤ max(1, 1/k²) at H = 1.
     let speed = (1.0 / k).max(1.0);
     Ok(Row { k, regular, point, limit, position_error: COORDINATE_ROUNDING + speed * point.t1 * point.error })

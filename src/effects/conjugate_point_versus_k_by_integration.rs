@@ -7,8 +7,10 @@
 //! times the accuracy asked for (1e-12 for the article's level), or the first route's own error bound where that is
 //! larger.
 
+use super::arithmetic::{ROUNDED_TWICE, of_tolerance};
 use super::counted::integrated;
 use super::product::{failed, input_table, product};
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::geometry::spin::lift::first_conjugate_time_by_integration;
@@ -25,6 +27,7 @@ pub const KIND: Kind = Kind {
     code: &[
         "effects/conjugate_point_versus_k_by_integration.rs",
         "effects/counted.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/spin",
         "numerics",
@@ -37,6 +40,8 @@ pub const INPUT: &str = "conjugate-point-versus-k";
 /// Rows whose first route claims less than this relative error are integrated in `f64`: their condition is below some
 /// 5.
 const WELL_CONDITIONED: f64 = 8e-15;
+/// From this error asked for on, f64 with the smallest steps does for the others: at a triple root the cube root of its ε is below a hundred times this.
+const ROUGH: f64 = 1e-7;
 /// Allowed difference in units of the accuracy asked for: the integration multiplies a step's error by the number of
 /// steps and by the condition.
 const ALLOWED: f64 = 100.0;
@@ -46,7 +51,7 @@ const BEYOND: f64 = 1.05;
 /// The second route.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct ConjugatePointVersusKByIntegration {
-    /// Relative error of the integration's steps.
+    /// Relative error of the integration's steps; below the ε of f64 in double-double.
     pub accuracy: f64,
 }
 
@@ -78,7 +83,8 @@ impl Compute for ConjugatePointVersusKByIntegration {
             (d1 * d1 + d2 * d2 + d3 * d3).sqrt()
         };
         let positions: Vec<f64> = rows.iter().enumerate().map(apart).collect();
-        let allowed: Vec<f64> = error.iter().map(|error| error.max(ALLOWED * self.accuracy)).collect();
+        let allowed: Vec<f64> =
+            error.iter().map(|error| error.max(ALLOWED * self.accuracy).max(ROUNDED_TWICE)).collect();
         let table =
             Table::builder(KIND.name, "first conjugate times and points by integration, beside the closed form's")
                 .column("k", "1", "ratio of the couplings", k)
@@ -105,13 +111,21 @@ impl Compute for ConjugatePointVersusKByIntegration {
 
 fn row(k: f64, p_theta: f64, t1: f64, error: f64, accuracy: f64) -> Result<Row, NodeError> {
     let doing = format!("k = {k:?}, p_theta = {p_theta:?}");
-    if error <= WELL_CONDITIONED {
+    if of_tolerance(accuracy) == Arithmetic::F64 && error <= WELL_CONDITIONED {
         let (point, work) =
             first_conjugate_time_by_integration(k, p_theta, accuracy, BEYOND * t1).map_err(failed(&doing))?;
         return Ok(Row { t1: point.t1, r: point.r, long: false, work: integrated(work) });
     }
+    if accuracy >= ROUGH {
+        let (point, work) =
+            first_conjugate_time_by_integration(k, p_theta, f64::EPSILON, BEYOND * t1).map_err(failed(&doing))?;
+        return Ok(Row { t1: point.t1, r: point.r, long: false, work: integrated(work) });
+    }
     let long = DoubleDouble::from_f64;
-    let steps = accuracy * f64::EPSILON;
+    let steps = match of_tolerance(accuracy) {
+        Arithmetic::F64 => accuracy * f64::EPSILON,
+        Arithmetic::DoubleDouble => accuracy,
+    };
     let (point, work) = first_conjugate_time_by_integration(long(k), long(p_theta), steps, long(BEYOND * t1))
         .map_err(failed(&doing))?;
     Ok(Row { t1: point.t1.to_f64(), r: point.r.map(Real::to_f64), long: true, work: integrated(work) })

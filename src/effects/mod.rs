@@ -1,5 +1,6 @@
 //! Node kinds: what a scene can call for. A kind belongs to its effect, never to a figure.
 
+pub mod arithmetic;
 pub mod conjugate_point_versus_k;
 pub mod conjugate_point_versus_k_by_integration;
 pub mod cost_of_effects;

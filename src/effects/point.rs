@@ -3,9 +3,11 @@
 //! Each metric reads exactly the keys of its row in [`Metric::keys`]; anything else is refused by name. The answer names its
 //! route, its own estimate of the relative error of `t1`, and the work done.
 
+use crate::contract::accuracy::ARTICLE;
 use crate::contract::work::Work;
 use std::collections::BTreeMap;
 
+mod reference;
 mod rotation_group;
 mod serret_andoyer;
 mod spin;
@@ -157,12 +159,16 @@ pub struct Answer {
     pub work: Work,
 }
 
-/// The first conjugate point for the given inputs; `relative_error` is what is asked for where a route integrates.
+/// The first conjugate point for the given inputs; `relative_error` is what is asked for where a route integrates. Below that of `article` all is
+/// computed in double-double arithmetic and rounded: the route says so.
 ///
 /// # Errors
 /// Inputs that are unknown, missing, of the wrong kind or out of range; a computation that failed.
 pub fn answer(metric: Metric, given: &Inputs, relative_error: f64) -> Result<Answer, PointError> {
     let reader = Reader::new(metric, given)?;
+    if relative_error < ARTICLE {
+        return reference::answer(&reader, relative_error);
+    }
     match metric {
         Metric::SerretAndoyer => serret_andoyer::answer(&reader),
         Metric::Spin => spin::answer(&reader),
@@ -175,6 +181,7 @@ pub fn answers(metric: Metric, rows: &[Inputs], relative_error: f64) -> Vec<Resu
     let readers: Vec<Result<Reader<'_>, PointError>> = rows.iter().map(|given| Reader::new(metric, given)).collect();
     let good: Vec<Reader<'_>> = readers.iter().filter_map(|reader| reader.as_ref().ok()).copied().collect();
     let answers = match metric {
+        _ if relative_error < ARTICLE => good.iter().map(|reader| reference::answer(reader, relative_error)).collect(),
         Metric::SerretAndoyer => serret_andoyer::answers(&good),
         Metric::Spin => spin::answers(&good),
         Metric::RotationGroup => good.iter().map(|reader| rotation_group::answer(reader, relative_error)).collect(),

@@ -5,9 +5,10 @@
 //! unit that `H = 1` fixes. Not known here: names and what figures do with the values.
 
 use super::product::{failed, product};
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
-use crate::geometry::spin::switch_points::{Passage, SwitchPoint, switch_points};
+use crate::geometry::spin::switch_points::{Passage, SwitchPoint, switch_points, switch_points_to_reference};
 use crate::table::Table;
 use serde::Serialize;
 
@@ -39,12 +40,24 @@ impl Compute for SwitchPoints {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
         let Self { p_theta, k_low, k_high } = *self;
         let mut found: Vec<SwitchPoint> = Vec::new();
         for passage in [Passage::Pole, Passage::Equator] {
             let doing = format!("p_theta = {p_theta:?}, k from {k_low:?} to {k_high:?}, {}", passage_name(passage));
-            found.extend(switch_points(passage, p_theta, k_low, k_high).map_err(failed(&doing))?);
+            let switches = match arithmetic {
+                Arithmetic::F64 => switch_points(passage, p_theta, k_low, k_high),
+                Arithmetic::DoubleDouble => switch_points_to_reference(passage, p_theta, k_low, k_high),
+            };
+            found.extend(switches.map_err(failed(&doing))?);
         }
         found.sort_by(|a, b| a.k.total_cmp(&b.k));
         let solved: u64 = found.iter().map(|switch| u64::from(switch.solutions)).sum();

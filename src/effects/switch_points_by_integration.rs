@@ -10,6 +10,7 @@
 use super::counted::integrated;
 use super::product::{failed, input_table, product};
 use super::switch_points::POLE;
+use crate::contract::accuracy::{ARTICLE, Accuracy};
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::geometry::spin::lift::{first_conjugate_time_by_integration, jacobi_scalar_at_crossing};
@@ -46,9 +47,34 @@ const ROOT_TOLERANCE: f64 = 1e-24;
 /// The integration runs this much longer than the first route's time.
 const BEYOND: f64 = 1.05;
 
-/// The second route; it has no parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct SwitchPointsByIntegration {}
+/// For levels above `article`: of the error asked for, what steps may make, and what is left of the root; the function must still change sign
+/// within the bracket.
+const ROUGH: (f64, f64) = (1e-6, 1e-5);
+
+/// And the difference in k that is allowed then.
+const ROUGH_ALLOWED: f64 = 1e-3;
+
+/// The second route; it has no parameters unless less than full accuracy is asked for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct SwitchPointsByIntegration {
+    /// The relative error asked for, where it is above that of `article`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub asked: Option<f64>,
+}
+
+impl SwitchPointsByIntegration {
+    /// At an accuracy: in double-double at any.
+    pub fn new(accuracy: Accuracy) -> Self {
+        Self { asked: Some(accuracy.relative_error()).filter(|asked| *asked > ARTICLE) }
+    }
+
+    /// Relative errors of steps and of the root.
+    fn tolerances(&self) -> (f64, f64) {
+        self.asked.map_or((STEP_TOLERANCE, ROOT_TOLERANCE), |asked| {
+            ((ROUGH.0 * asked).max(STEP_TOLERANCE), (ROUGH.1 * asked).max(ROOT_TOLERANCE))
+        })
+    }
+}
 
 struct Row {
     passage: String,
@@ -74,9 +100,11 @@ impl Compute for SwitchPointsByIntegration {
         );
         let (passage, index) = (first.texts("passage").map_err(unread)?, first.ints("index").map_err(unread)?);
         let error = first.f64s("error").map_err(unread)?;
+        let rough = self.asked.map_or(0.0, |asked| ROUGH_ALLOWED * asked);
+        let allowed: Vec<f64> = error.iter().map(|error| error.max(rough)).collect();
         let rows = (0..first.rows())
             .into_par_iter()
-            .map(|i| root(&passage[i], index[i], p_theta[i], k[i], t1[i]))
+            .map(|i| root(&passage[i], index[i], p_theta[i], (k[i], t1[i]), self.tolerances()))
             .collect::<Result<Vec<Row>, NodeError>>()?;
         let work = rows.iter().map(|row| row.work).sum();
         let numbers = |of: fn(&Row) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
@@ -109,24 +137,30 @@ impl Compute for SwitchPointsByIntegration {
                     "|closed form − integration| in k",
                     numbers(|row| (DoubleDouble::from_f64(row.k) - row.root).abs().to_f64()),
                 )
-                .column("allowed", "1", "what the closed form's own error allows", error)
+                .column("allowed", "1", "what the closed form's own error allows", allowed)
                 .build()
                 .map_err(failed("switch points by integration"))?;
         product(&table, work)
     }
 }
 
-fn root(passage: &str, index: i64, p_theta: f64, k: f64, t1: f64) -> Result<Row, NodeError> {
+fn root(
+    passage: &str,
+    index: i64,
+    p_theta: f64,
+    (k, t1): (f64, f64),
+    (step_tolerance, root_tolerance): (f64, f64),
+) -> Result<Row, NodeError> {
     let long = DoubleDouble::from_f64;
     let mut work = Work::default();
     let mut failure = None;
     let mut function = |k: DoubleDouble| -> DoubleDouble {
         let t_max = long(BEYOND * t1);
         let result = if passage == POLE {
-            first_conjugate_time_by_integration(k, long(p_theta), STEP_TOLERANCE, t_max)
+            first_conjugate_time_by_integration(k, long(p_theta), step_tolerance, t_max)
                 .map(|(point, w)| (point.r[0], w))
         } else {
-            jacobi_scalar_at_crossing(k, long(p_theta), STEP_TOLERANCE, t_max, usize::try_from(index).unwrap_or(0))
+            jacobi_scalar_at_crossing(k, long(p_theta), step_tolerance, t_max, usize::try_from(index).unwrap_or(0))
                 .map(|(crossing, w)| (crossing.jacobi, w))
         };
         match result {
@@ -142,7 +176,7 @@ fn root(passage: &str, index: i64, p_theta: f64, k: f64, t1: f64) -> Result<Row,
     };
     let residual = function(long(k)).to_f64();
     let half = long(HALF_BRACKET);
-    let tolerance = RootTolerance { relative: long(ROOT_TOLERANCE), absolute: long(0.0), max_evaluations: 200 };
+    let tolerance = RootTolerance { relative: long(root_tolerance), absolute: long(0.0), max_evaluations: 200 };
     let found = bracketed(&mut function, long(k) - half, long(k) + half, tolerance);
     let doing = format!("p_theta = {p_theta:?}, {passage} {index} near k = {k:?}");
     match (found, failure) {

@@ -11,7 +11,7 @@
 use super::definition::{Definition, Experiment, Measured, findings_kind, picture_kind};
 use super::findings::unread;
 use super::nodes::Nodes;
-use crate::contract::accuracy::Accuracy;
+use crate::contract::accuracy::{Accuracy, Arithmetic};
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
@@ -202,7 +202,8 @@ impl Definition for Cost {
         Some(Measured { picture_kind: &MEASURED_PICTURE, nodes: measurements, picture: measured_picture });
 
     fn set_accuracy(params: &mut Params, accuracy: Accuracy) {
-        params.accuracies = vec![accuracy];
+        // Its integrations count work in f64, which can give no more than `article`.
+        params.accuracies = vec![if accuracy.arithmetic() == Arithmetic::F64 { accuracy } else { Accuracy::Article }];
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {

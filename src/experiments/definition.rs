@@ -24,6 +24,8 @@ use serde::{Serialize, Serializer};
 pub const PICTURE_FILE: &str = "picture.svg";
 /// The output of a findings node.
 pub const FINDINGS_FILE: &str = "findings.json";
+/// The name of the node that draws an experiment.
+pub const PICTURE_NODE: &str = "picture";
 /// The name of the node that holds an experiment's values and claims.
 pub const FINDINGS_NODE: &str = "findings";
 
@@ -48,6 +50,11 @@ pub trait Definition: 'static {
 
     /// Puts the command line's accuracy in place of the config's.
     fn set_accuracy(params: &mut Self::Params, accuracy: Accuracy);
+
+    /// The accuracy that the whole was made with, for its caption; none where an experiment is about several.
+    fn accuracy(_: &Self::Params) -> Option<Accuracy> {
+        None
+    }
 
     /// Which of the scene's effects are this experiment's own, and what else its metric is asked for: that is computed and drawn beside it.
     fn asked(_: &Self::Params) -> Asked {
@@ -222,7 +229,7 @@ fn plan<D: Definition>(id: &str, source: &ConfigSource, request: Request) -> Res
     let readers: [(&str, &str, Node); 2] = [
         (PICTURE_FILE, "svg", {
             let reader = Picturing { id: id.to_owned(), params: params.clone(), kind: D::PICTURE, draw: drawn::<D> };
-            Node::new(Address::new(id, "picture"), reader).map_err(undescribable)?.origin(CONFIG, "")
+            Node::new(Address::new(id, PICTURE_NODE), reader).map_err(undescribable)?.origin(CONFIG, "")
         }),
         (FINDINGS_FILE, "json", {
             Node::new(Address::new(id, FINDINGS_NODE), Finding::<D> { params }).map_err(undescribable)?
@@ -282,7 +289,11 @@ fn read_tables(inputs: &Inputs) -> Result<Tables, NodeError> {
 fn drawn<D: Definition>(params: &D::Params, tables: &Tables) -> Result<Picture, NodeError> {
     let asked = D::asked(params);
     let own = if asked.own { D::picture(params, tables)? } else { Picture::new(Width::Double, LEGEND_MM, D::TITLE) };
-    asked.drawn_under(own, tables)
+    let mut picture = asked.drawn_under(own, tables)?;
+    if let Some(accuracy) = D::accuracy(params) {
+        picture.caption = format!("{} Accuracy: {}.", picture.caption, accuracy.in_words()).trim_start().to_owned();
+    }
+    Ok(picture)
 }
 
 /// The node that draws.

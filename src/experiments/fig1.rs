@@ -95,11 +95,16 @@ impl Definition for Fig1 {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn asked(params: &Params) -> Asked {
         Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0.into()), Some(&params.scene.start.p_theta))
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let Params { scene, picture, other_body } = params;
         let body = scene.metric.serret_andoyer.into();
         let origins = Inertia::origins("serret-andoyer");

@@ -145,11 +145,16 @@ impl Definition for Fig3 {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn asked(params: &Params) -> Asked {
         Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0), None)
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let Params { scene, spacing, wave_front, picture } = params;
         let body = scene.metric.serret_andoyer.into();
         let spacing = Spacing { smallest: spacing.smallest, cusp: spacing.cusp, tail: spacing.tail };

@@ -17,6 +17,7 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
+use crate::effects::arithmetic::step_error;
 use crate::effects::conjugate_point_versus_k::{self, ConjugatePointVersusK};
 use crate::effects::conjugate_point_versus_k_by_integration::{self, ConjugatePointVersusKByIntegration};
 use crate::effects::scene::{Effect, EquatorStart, Scene, SpinMetric, SPIN};
@@ -96,11 +97,16 @@ impl Definition for Fig4 {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn asked(params: &Params) -> Asked {
         Asked::spin(&params.scene, &OWN, None)
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let scene = &params.scene;
         let p_theta = scene.start.p_theta;
         let mut switches: Option<TableRef> = None;
@@ -118,7 +124,7 @@ impl Definition for Fig4 {
                 let first = SwitchPoints { p_theta: value, k_low, k_high };
                 let first = nodes.add(SWITCHES, &axis, first, &[], &origins)?;
                 let input = [(switch_points_by_integration::INPUT, &first)];
-                nodes.add(SWITCHES_CHECK, &axis, SwitchPointsByIntegration {}, &input, &[])?;
+                nodes.add(SWITCHES_CHECK, &axis, SwitchPointsByIntegration::new(scene.accuracy), &input, &[("asked", "scene.accuracy".to_owned())])?;
                 switches.get_or_insert(first);
             }
         }
@@ -129,7 +135,7 @@ impl Definition for Fig4 {
                 switches.iter().map(|table| (conjugate_point_versus_k::SWITCHES, table)).collect();
             let origins = [("p_theta", "scene.start.p_theta".to_owned()), ("k", "scene.metric.spin.k".to_owned())];
             let curve = nodes.add(CURVE, &[], curve, &inputs, &origins)?;
-            let check = ConjugatePointVersusKByIntegration { accuracy: scene.accuracy.relative_error() };
+            let check = ConjugatePointVersusKByIntegration { accuracy: step_error(scene.accuracy) };
             let input = [(conjugate_point_versus_k_by_integration::INPUT, &curve)];
             nodes.add(CURVE_CHECK, &[], check, &input, &[("accuracy", "scene.accuracy".to_owned())])?;
         }

@@ -18,6 +18,7 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
+use crate::effects::arithmetic::short_step_error;
 use crate::effects::scene::{Effect, EquatorStarts, Scene, SpinMetric, SPIN};
 use crate::effects::switch_points::{EQUATOR, POLE, SwitchPoints};
 use crate::effects::theta_turning_points::ThetaTurningPoints;
@@ -130,13 +131,18 @@ impl Definition for Fig6 {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn asked(params: &Params) -> Asked {
         Asked::spin(&params.scene, &OWN, None)
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let Types { decrease_tolerance, smallest_p_theta, switch_points_to } = params.types;
-        let accuracy = params.scene.accuracy.relative_error();
+        let accuracy = short_step_error(params.scene.accuracy);
         let k = params.scene.metric.spin.k.clone();
         let key = |key: &str| key.to_owned();
         let tolerances =

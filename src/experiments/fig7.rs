@@ -137,11 +137,16 @@ impl Definition for Fig7 {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn asked(params: &Params) -> Asked {
         Asked::spin(&params.scene, &OWN, Some(params.scene.start.p_theta))
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let (sweep, p_theta) = (&params.scene.metric.spin.k, params.scene.start.p_theta);
         for (index, k) in sweep.values().into_iter().enumerate() {
             if params.scene.asks_for(Effect::Geodesics) {

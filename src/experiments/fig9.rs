@@ -199,7 +199,12 @@ impl Definition for Fig9 {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let scene = &params.scene;
         let asks = |effect| scene.asks_for(effect);
         let (tolerance, allowed) = (tolerance(scene.accuracy), allowed(scene.accuracy));

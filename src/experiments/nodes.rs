@@ -1,12 +1,14 @@
 //! The list of compute nodes that an experiment asks for, each making one table.
 
-use crate::contract::node::{Address, Compute, Node, NodeError};
+use crate::contract::accuracy::{Accuracy, Arithmetic};
+use crate::contract::node::{ARITHMETIC, Address, Compute, Node, NodeError};
 use crate::effects::product::TABLE;
 use serde::Serialize;
 
 /// Collects the nodes of one experiment.
 pub struct Nodes {
     id: String,
+    arithmetic: Arithmetic,
     nodes: Vec<Node>,
     tables: Vec<(String, Address)>,
 }
@@ -18,7 +20,12 @@ pub struct TableRef(Address);
 impl Nodes {
     /// No nodes yet, for the experiment `id`.
     pub fn new(id: &str) -> Self {
-        Self { id: id.to_owned(), nodes: Vec::new(), tables: Vec::new() }
+        Self { id: id.to_owned(), arithmetic: Arithmetic::F64, nodes: Vec::new(), tables: Vec::new() }
+    }
+
+    /// From now on, nodes whose kinds heed it run in the arithmetic of this level.
+    pub fn at(&mut self, accuracy: Accuracy) {
+        self.arithmetic = accuracy.arithmetic();
     }
 
     /// Asks for a node. Its table is found as `name`, with `/axis=value` for each axis, by the picture and the findings.
@@ -39,6 +46,7 @@ impl Nodes {
             axes.iter().fold(Address::new(self.id.clone(), name), |address, (axis, value)| address.with(*axis, value));
         let mut node =
             Node::new(address.clone(), compute).map_err(|error| NodeError::new(format!("{address}: {error}")))?;
+        node = node.in_arithmetic(self.arithmetic).origin(ARITHMETIC, "scene.accuracy");
         for (input, table) in inputs {
             node = node.input(*input, &table.0, TABLE);
         }

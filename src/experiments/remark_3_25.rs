@@ -91,11 +91,16 @@ impl Definition for Remark {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn asked(params: &Params) -> Asked {
         Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0), None)
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let body = params.scene.metric.serret_andoyer.into();
         let origins = Inertia::origins("serret-andoyer");
         let with = |key: &str| [origins.clone(), vec![("phi0", key.to_owned())]].concat();

@@ -430,6 +430,10 @@ impl Definition for Scene {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
         scenery(params)?.nodes(nodes)
     }

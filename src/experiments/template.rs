@@ -87,12 +87,17 @@ impl Definition for Template {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn asked(params: &Params) -> Asked {
         Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0), None)
     }
 
     // The nodes asked for: a kind and its parameters each. Kinds live in `effects`.
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let cusps = Cusps { body: params.scene.metric.serret_andoyer.into(), phi0: params.scene.start.phi0.values() };
         let origins = [Inertia::origins("serret-andoyer"), vec![("phi0", "scene.start.phi0".to_owned())]].concat();
         nodes.add("cusps", &[], cusps, &[], &origins)?;

@@ -146,11 +146,16 @@ impl Definition for Theorem {
         params.scene.accuracy = accuracy;
     }
 
+    fn accuracy(params: &Params) -> Option<Accuracy> {
+        Some(params.scene.accuracy)
+    }
+
     fn asked(params: &Params) -> Asked {
         Asked::serret_andoyer(&params.scene, &OWN, None, None)
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(params.scene.accuracy);
         let Params { scene, supremum, part_2, counterexample } = params;
         let body = scene.metric.serret_andoyer.into();
         let metric = Inertia::origins("serret-andoyer");

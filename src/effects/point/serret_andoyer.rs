@@ -29,7 +29,7 @@ pub(super) fn answers(readers: &[Reader<'_>]) -> Vec<Result<Answer, PointError>>
     in_lanes(readers, read, solve, told)
 }
 
-fn read(reader: &Reader<'_>) -> Result<(Metric, Start), PointError> {
+pub(super) fn read(reader: &Reader<'_>) -> Result<(Metric, Start), PointError> {
     let [a, b, c] = [reader.number("A", METRIC)?, reader.number("B", METRIC)?, reader.number("C", METRIC)?];
     let metric = Metric::new(a, b, c).map_err(|error| PointError::Refused(error.to_string()))?;
     Ok((metric, start(reader)?))

@@ -18,7 +18,7 @@ pub(super) fn answers(readers: &[Reader<'_>]) -> Vec<Result<Answer, PointError>>
     in_lanes(readers, read, first_conjugate_points, told)
 }
 
-fn read(reader: &Reader<'_>) -> Result<Start, PointError> {
+pub(super) fn read(reader: &Reader<'_>) -> Result<Start, PointError> {
     let (k, p_theta) = (reader.number("k", ACCEPTED)?, reader.number("p_theta", ACCEPTED)?);
     Start::new(k, p_theta).map_err(|error| PointError::Refused(error.to_string()))
 }

@@ -5,10 +5,12 @@
 
 use super::start::{Body, EulerStart};
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
+use crate::effects::arithmetic::{in_arithmetic, of_tolerance};
 use crate::effects::counted::integrated;
 use crate::effects::product::{failed, input_table, product};
 use crate::geometry::rotation_group::attitude_trajectory::{attitude_at, euler_angles_at};
 use crate::geometry::rotation_group::euler_angles::rotation_matrix;
+use crate::numerics::real::Real;
 use crate::table::Table;
 use serde::Serialize;
 
@@ -28,7 +30,7 @@ pub struct AttitudeTrajectory {
     pub points: usize,
     /// Whether the conjugate times before its end are added.
     pub conjugate_times: bool,
-    /// Relative error per step.
+    /// Relative error per step; below the ε of f64 in double-double.
     pub tolerance: f64,
 }
 
@@ -40,6 +42,7 @@ pub const KIND: Kind = Kind {
         "effects/rotation_group/attitude.rs",
         "effects/rotation_group/start.rs",
         "effects/counted.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/rotation_group",
         "geometry/serret_andoyer",
@@ -72,21 +75,29 @@ impl Compute for AttitudeTrajectory {
     }
 
     fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        in_arithmetic!(of_tolerance(self.tolerance), S => self.computed::<S>(inputs))
+    }
+}
+
+impl AttitudeTrajectory {
+    fn computed<S: Real>(&self, inputs: &Inputs) -> Result<Product, NodeError> {
         let named = || format!("Phi = {:?}, p = {:?}", self.start.phi, self.start.p);
-        let metric = self.body.metric()?;
+        let metric = self.body.metric::<S>()?;
         let marked = self.times(inputs)?;
         let times: Vec<f64> = marked.iter().map(|(t, _)| *t).collect();
-        let point = self.start.point::<f64>();
+        let instants: Vec<S> = times.iter().map(|t| S::from_f64(*t)).collect();
+        let point = self.start.point::<S>();
         let momentum = point.body_momentum().map_err(failed(&named()))?;
-        let (angles, on_angles) = euler_angles_at(&metric, &point, &times, self.tolerance).map_err(failed(&named()))?;
+        let (angles, on_angles) =
+            euler_angles_at(&metric, &point, &instants, self.tolerance).map_err(failed(&named()))?;
         let (states, on_states) =
-            attitude_at(&metric, point.attitude(), momentum, &times, self.tolerance).map_err(failed(&named()))?;
+            attitude_at(&metric, point.attitude(), momentum, &instants, self.tolerance).map_err(failed(&named()))?;
         // E3 in space is the third column of R, which takes components in the body to components in space.
-        let axis: Vec<[f64; 3]> = states.iter().map(|s| rotation_matrix(&s.quaternion).map(|row| row[2])).collect();
-        let angle = |i: usize| angles.iter().map(|a| a[i]).collect::<Vec<_>>();
-        let quaternion = |i: usize| states.iter().map(|s| s.quaternion[i]).collect::<Vec<_>>();
-        let body_momentum = |i: usize| states.iter().map(|s| s.body_momentum[i]).collect::<Vec<_>>();
-        let axis = |i: usize| axis.iter().map(|a| a[i]).collect::<Vec<_>>();
+        let axis: Vec<[S; 3]> = states.iter().map(|s| rotation_matrix(&s.quaternion).map(|row| row[2])).collect();
+        let angle = |i: usize| angles.iter().map(|a| a[i].to_f64()).collect::<Vec<_>>();
+        let quaternion = |i: usize| states.iter().map(|s| s.quaternion[i].to_f64()).collect::<Vec<_>>();
+        let body_momentum = |i: usize| states.iter().map(|s| s.body_momentum[i].to_f64()).collect::<Vec<_>>();
+        let axis = |i: usize| axis.iter().map(|a| a[i].to_f64()).collect::<Vec<_>>();
         let mut table = Table::builder("attitude", "one extremal on SO(3)")
             .column("t", "time", "time", times)
             .column(

@@ -4,9 +4,12 @@
 
 use super::start::Body;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
+use crate::effects::arithmetic::{in_arithmetic, of_tolerance};
 use crate::effects::counted::integrated;
 use crate::effects::product::{failed, input_table, product};
 use crate::geometry::rotation_group::attitude_route::first_conjugate_times_by_attitude;
+use crate::numerics::counts;
+use crate::numerics::real::Real;
 use crate::table::Table;
 use serde::Serialize;
 
@@ -18,7 +21,7 @@ pub const INPUT: &str = "conjugate-times";
 pub struct ConjugateTimesByAttitude {
     /// The body.
     pub body: Body,
-    /// Relative error per step.
+    /// Relative error per step; below the ε of f64 in double-double.
     pub tolerance: f64,
     /// Largest relative difference allowed between the routes.
     pub allowed: f64,
@@ -32,6 +35,7 @@ pub const KIND: Kind = Kind {
         "effects/rotation_group/conjugate_times_by_attitude.rs",
         "effects/rotation_group/start.rs",
         "effects/counted.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/rotation_group",
         "geometry/serret_andoyer",
@@ -40,6 +44,15 @@ pub const KIND: Kind = Kind {
     ],
     measurement: false,
 };
+
+impl ConjugateTimesByAttitude {
+    fn times<S: Real>(&self, momentum: [f64; 3]) -> Result<(Vec<f64>, counts::Work), NodeError> {
+        let found =
+            first_conjugate_times_by_attitude(&self.body.metric::<S>()?, momentum.map(S::from_f64), 2, self.tolerance)
+                .map_err(failed(&format!("M = {momentum:?}")))?;
+        Ok((found.times.into_iter().map(S::to_f64).collect(), found.work))
+    }
+}
 
 impl Compute for ConjugateTimesByAttitude {
     fn kind(&self) -> &'static Kind {
@@ -53,11 +66,10 @@ impl Compute for ConjugateTimesByAttitude {
             column.first().copied().ok_or_else(|| NodeError::new("second route: no start"))
         };
         let momentum = [read("M1")?, read("M2")?, read("M3")?];
-        let found = first_conjugate_times_by_attitude(&self.body.metric()?, momentum, 2, self.tolerance)
-            .map_err(failed(&format!("M = {momentum:?}")))?;
+        let (times, counted) = in_arithmetic!(of_tolerance(self.tolerance), S => self.times::<S>(momentum))?;
         let difference =
             |name: &str, second: f64| -> Result<Vec<f64>, NodeError> { Ok(vec![(second / read(name)? - 1.0).abs()]) };
-        let (t1, t2) = (found.times[0], found.times[1]);
+        let (t1, t2) = (times[0], times[1]);
         let table = Table::builder("conjugate-times-by-attitude", "first two conjugate times by the attitude")
             .column("t1", "time", "first conjugate time", vec![t1])
             .column("t2", "time", "second conjugate time, with multiplicity", vec![t2])
@@ -66,6 +78,6 @@ impl Compute for ConjugateTimesByAttitude {
             .column("allowed", "1", "largest difference allowed", vec![self.allowed])
             .build()
             .map_err(failed("second route"))?;
-        product(&table, integrated(found.work))
+        product(&table, integrated(counted))
     }
 }

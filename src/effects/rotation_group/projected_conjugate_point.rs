@@ -4,6 +4,7 @@
 //! Angles in radians, time as in (9).
 
 use super::start::{Body, EulerStart, ReducedStart};
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::effects::product::{failed, product};
@@ -41,6 +42,7 @@ pub const KIND: Kind = Kind {
     code: &[
         "effects/rotation_group/projected_conjugate_point.rs",
         "effects/rotation_group/start.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/rotation_group",
         "geometry/serret_andoyer",
@@ -58,13 +60,19 @@ pub(super) fn into_half_turn(y: f64) -> f64 {
 impl Projected {
     /// `[x, y, p_x, p_y]` at the start. Transformed in double-double and rounded once.
     pub(super) fn reduced(&self) -> Result<[f64; 4], NodeError> {
+        Ok(self.long_reduced()?.map(Real::to_f64))
+    }
+
+    /// The same, not rounded.
+    pub(super) fn long_reduced(&self) -> Result<[DoubleDouble; 4], NodeError> {
+        let number = DoubleDouble::from;
         match self {
-            Self::Given(start) => Ok([0.0, start.y0(), start.p_x, start.p_y]),
+            Self::Given(start) => Ok([number(0.0), start.long_y0(), number(start.p_x), number(start.p_y)]),
             Self::From(start) => {
                 let variables = SerretAndoyerVariables::from_euler(&start.point::<DoubleDouble>());
                 let [x, y, p_x, p_y] = variables.map_err(failed(&self.to_string()))?.reduced();
                 let half_turns = DoubleDouble::PI * Real::floor(y / DoubleDouble::PI);
-                Ok([x, y - half_turns, p_x, p_y].map(Real::to_f64))
+                Ok([x, y - half_turns, p_x, p_y])
             }
         }
     }
@@ -84,22 +92,39 @@ impl Compute for ProjectedConjugatePoint {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let [x0, y0, p_x, p_y] = self.start.reduced()?;
-        let metric = self.body.reduced()?;
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        match arithmetic {
+            Arithmetic::F64 => self.computed(self.start.reduced()?),
+            Arithmetic::DoubleDouble => self.computed(self.start.long_reduced()?),
+        }
+    }
+}
+
+impl ProjectedConjugatePoint {
+    fn computed<S: Real>(&self, [x0, y0, p_x, p_y]: [S; 4]) -> Result<Product, NodeError> {
+        let metric = self.body.reduced::<S>()?;
         let named = self.start.to_string();
         let extremal = Extremal::new(&metric, Start::Momenta { y0, p_x, p_y }).map_err(failed(&named))?;
         let point = first_conjugate_point(&extremal).map_err(failed(&named))?;
+        let number = |x: S| vec![x.to_f64()];
         let table = Table::builder("projected-conjugate-point", "first conjugate point of a reduced extremal")
-            .column("x0", "rad", "x at the start", vec![x0])
-            .column("y0", "rad", "y at the start, in [0, π) where it is projected", vec![y0])
-            .column("p_x", "momentum", "the constant p_x = G", vec![p_x])
-            .column("p_y", "momentum", "p_y = L at the start", vec![p_y])
-            .column("h", "energy", "the Hamiltonian of (9)", vec![extremal.energy()])
-            .column("t1", "time", "first conjugate time", vec![point.t1])
-            .column("x", "rad", "x there", vec![x0 + point.x])
-            .column("y", "rad", "y there", vec![point.y])
-            .column("t1_error", "1", "estimate of the relative error of t1", vec![point.error])
+            .column("x0", "rad", "x at the start", number(x0))
+            .column("y0", "rad", "y at the start, in [0, π) where it is projected", number(y0))
+            .column("p_x", "momentum", "the constant p_x = G", number(p_x))
+            .column("p_y", "momentum", "p_y = L at the start", number(p_y))
+            .column("h", "energy", "the Hamiltonian of (9)", number(extremal.energy()))
+            .column("t1", "time", "first conjugate time", number(point.t1))
+            .column("x", "rad", "x there", number(x0 + point.x))
+            .column("y", "rad", "y there", number(point.y))
+            .column("t1_error", "1", "estimate of the relative error of t1", number(point.error))
             .build()
             .map_err(failed("projected conjugate point"))?;
         let roots_solved = u64::from(point.iterations > 0);

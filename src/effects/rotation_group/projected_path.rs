@@ -2,10 +2,12 @@
 
 use super::projected_conjugate_point::Projected;
 use super::start::Body;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::effects::product::{failed, product};
 use crate::geometry::serret_andoyer::{Extremal, Start};
+use crate::numerics::real::Real;
 use crate::table::Table;
 use serde::Serialize;
 
@@ -33,6 +35,7 @@ pub const KIND: Kind = Kind {
         "effects/rotation_group/projected_path.rs",
         "effects/rotation_group/projected_conjugate_point.rs",
         "effects/rotation_group/start.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/rotation_group",
         "geometry/serret_andoyer",
@@ -47,14 +50,30 @@ impl Compute for ProjectedPath {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let [x0, y0, p_x, p_y] = self.start.reduced()?;
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        match arithmetic {
+            Arithmetic::F64 => self.computed(self.start.reduced()?),
+            Arithmetic::DoubleDouble => self.computed(self.start.long_reduced()?),
+        }
+    }
+}
+
+impl ProjectedPath {
+    fn computed<S: Real>(&self, [x0, y0, p_x, p_y]: [S; 4]) -> Result<Product, NodeError> {
         let extremal = Extremal::new(&self.body.reduced()?, Start::Momenta { y0, p_x, p_y })
             .map_err(failed(&self.start.to_string()))?;
         let path = extremal.path();
         let last = self.points.saturating_sub(1).max(1) as f64;
         let times: Vec<f64> = (0..self.points).map(|i| self.t_end * (i as f64 / last)).collect();
-        let positions: Vec<_> = times.iter().map(|t| path.position(*t)).collect();
+        let positions: Vec<_> = times.iter().map(|t| path.position(S::from_f64(*t))).collect();
         let rows = times.len() as u64;
         let meaning = match self.start {
             Projected::Given(_) => "x, zero at the start",
@@ -62,9 +81,9 @@ impl Compute for ProjectedPath {
         };
         let table = Table::builder("projected-path", "a Serret-Andoyer extremal")
             .column("t", "time", "time", times)
-            .column("x", "rad", meaning, positions.iter().map(|p| x0 + p.x).collect::<Vec<_>>())
-            .column("y", "rad", "y, on the universal cover", positions.iter().map(|p| p.y).collect::<Vec<_>>())
-            .column("p_y", "momentum", "its momentum", positions.iter().map(|p| p.p_y).collect::<Vec<_>>())
+            .column("x", "rad", meaning, positions.iter().map(|p| (x0 + p.x).to_f64()).collect::<Vec<_>>())
+            .column("y", "rad", "y, on the universal cover", positions.iter().map(|p| p.y.to_f64()).collect::<Vec<_>>())
+            .column("p_y", "momentum", "its momentum", positions.iter().map(|p| p.p_y.to_f64()).collect::<Vec<_>>())
             .build()
             .map_err(failed("projected path"))?;
         product(&table, Work { elliptic_calls: ELLIPTIC_CALLS * rows, dense_points: rows, ..Work::default() })

@@ -36,6 +36,7 @@ pub const KIND: Kind = Kind {
         "effects/rotation_group/projection.rs",
         "effects/rotation_group/projected_conjugate_point.rs",
         "effects/rotation_group/start.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/rotation_group",
         "geometry/serret_andoyer",

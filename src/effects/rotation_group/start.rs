@@ -4,8 +4,9 @@
 //! Momenta in the body are computed in double-double and rounded once: near a pole of Euler angles (sin Φ2 = 0.29 in section 5.3) f64
 //! would magnify rounding tenfold. Angles in radians, time as in (2) and (9).
 
-use crate::contract::accuracy::{ARTICLE, Accuracy};
+use crate::contract::accuracy::{ARTICLE, Accuracy, Arithmetic};
 use crate::contract::node::NodeError;
+use crate::effects::arithmetic::{ROUNDED_TWICE, long_tolerance};
 use crate::effects::product::failed;
 use crate::geometry::rotation_group::euler_angles::EulerPoint;
 use crate::geometry::rotation_group::metric::Metric;
@@ -36,16 +37,17 @@ impl Body {
     ///
     /// # Errors
     /// A, B, C not positive.
-    pub fn metric(&self) -> Result<Metric<f64>, NodeError> {
-        Metric::new(self.a, self.b, self.c).map_err(failed("metric"))
+    pub fn metric<S: Real>(&self) -> Result<Metric<S>, NodeError> {
+        Metric::new(S::from_f64(self.a), S::from_f64(self.b), S::from_f64(self.c)).map_err(failed("metric"))
     }
 
     /// The Serret-Andoyer metric that it reduces to.
     ///
     /// # Errors
     /// Not `0 < A < B < C`.
-    pub fn reduced(&self) -> Result<serret_andoyer::Metric, NodeError> {
-        serret_andoyer::Metric::new(self.a, self.b, self.c).map_err(failed("reduced metric"))
+    pub fn reduced<S: Real>(&self) -> Result<serret_andoyer::Metric<S>, NodeError> {
+        serret_andoyer::Metric::new(S::from_f64(self.a), S::from_f64(self.b), S::from_f64(self.c))
+            .map_err(failed("reduced metric"))
     }
 
     /// Energy and size of a body momentum.
@@ -86,8 +88,13 @@ pub struct ReducedStart {
 impl ReducedStart {
     /// y, rounded once.
     pub fn y0(&self) -> f64 {
+        self.long_y0().to_f64()
+    }
+
+    /// y, not rounded.
+    pub fn long_y0(&self) -> DoubleDouble {
         let cosine_squared = <DoubleDouble as Real>::from_f64(self.cosine_squared);
-        (DoubleDouble::ONE - cosine_squared).sqrt().atan2(cosine_squared.sqrt()).to_f64()
+        (DoubleDouble::ONE - cosine_squared).sqrt().atan2(cosine_squared.sqrt())
     }
 }
 
@@ -125,11 +132,18 @@ impl MomentumStart {
     /// # Errors
     /// Euler angles at a pole; a level that the point is not on for any p_y.
     pub fn body_momentum(&self, body: &Body) -> Result<[f64; 3], NodeError> {
-        let momentum = match self {
-            Self::Euler(start) => start.point::<DoubleDouble>().body_momentum().map_err(failed(&self.to_string()))?,
-            Self::Level(level) => level.body_momentum(body)?,
-        };
-        Ok(momentum.map(Real::to_f64))
+        Ok(self.long_body_momentum(body)?.map(Real::to_f64))
+    }
+
+    /// The same, not rounded.
+    ///
+    /// # Errors
+    /// As [`MomentumStart::body_momentum`].
+    pub fn long_body_momentum(&self, body: &Body) -> Result<[DoubleDouble; 3], NodeError> {
+        match self {
+            Self::Euler(start) => start.point::<DoubleDouble>().body_momentum().map_err(failed(&self.to_string())),
+            Self::Level(level) => level.body_momentum(body),
+        }
     }
 }
 
@@ -163,16 +177,22 @@ impl std::fmt::Display for MomentumStart {
     }
 }
 
-/// The relative error per step of an integration at an accuracy: full accuracy for `article`, a tenth of what is asked otherwise.
+/// The relative error per step of an integration at an accuracy: full accuracy for `article`, a tenth of what is asked above, less than the ε of
+/// f64 below, which takes double-double.
 pub fn tolerance(accuracy: Accuracy) -> f64 {
     let asked = accuracy.relative_error();
-    if asked <= ARTICLE { f64::EPSILON } else { asked / 10.0 }
+    long_tolerance(accuracy).unwrap_or(if asked <= ARTICLE { f64::EPSILON } else { asked / 10.0 })
 }
 
 /// The relative difference of two routes that is allowed at an accuracy.
 pub fn allowed(accuracy: Accuracy) -> f64 {
     let asked = accuracy.relative_error();
-    if asked <= ARTICLE { ALLOWED } else { asked.max(ALLOWED) }
+    match accuracy.arithmetic() {
+        // Second routes start from rounded numbers of the first: a condition of 4 is that of the article's starts.
+        Arithmetic::DoubleDouble => (4.0 * ROUNDED_TWICE).max(100.0 * asked),
+        Arithmetic::F64 if asked <= ARTICLE => ALLOWED,
+        Arithmetic::F64 => asked.max(ALLOWED),
+    }
 }
 
 #[cfg(test)]

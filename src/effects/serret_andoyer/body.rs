@@ -4,7 +4,7 @@
 
 use crate::contract::node::NodeError;
 use crate::effects::product::failed;
-use crate::geometry::serret_andoyer::{Branch, Clairaut, Extremal, Metric, Start};
+use crate::geometry::serret_andoyer::{Branch, Clairaut, Extremal, Metric, Start, StartError};
 use crate::numerics::real::Real;
 use crate::table::{Table, TableError};
 use serde::Serialize;
@@ -33,6 +33,24 @@ impl Body {
     }
 }
 
+/// The largest `δ = B μ(φ0) − 1` at a start, that of the cusp: `(B − A) cn²/Z`, where nothing cancels.
+pub fn largest_delta<S: Real>(metric: &Metric<S>, phi0: S) -> S {
+    let jacobi = metric.jacobi_of_phi(phi0);
+    (metric.b() - metric.a()) * jacobi.cn * jacobi.cn / metric.z_of_sine(jacobi.sn)
+}
+
+/// Whether `δ` exceeds that of the cusp by no more than the roundings of `f64`, in a scalar that is longer.
+fn is_rounded_cusp<S: Real>(delta: S, largest: S) -> bool {
+    let rounding = S::from_f64(8.0 * f64::EPSILON);
+    S::EPSILON < S::from_f64(f64::EPSILON) && delta - largest <= rounding * (S::ONE + largest)
+}
+
+/// `δ` in a scalar; what only rounding to `f64` puts beyond the cusp of a start is that of the cusp.
+pub fn delta_at<S: Real>(metric: &Metric<S>, phi0: f64, delta: f64) -> S {
+    let (delta, largest) = (S::from_f64(delta), largest_delta(metric, S::from_f64(phi0)));
+    if delta > largest && is_rounded_cusp(delta, largest) { largest } else { delta }
+}
+
 /// A start at `(θ, φ) = (0, φ0)` with arc length as time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClairautStart {
@@ -45,15 +63,21 @@ pub struct ClairautStart {
 }
 
 impl ClairautStart {
-    /// The extremal that starts there, the start taken as exact.
+    /// The extremal that starts there, the start taken as exact; one that only rounding of `δ` to `f64` puts beyond the cusp is taken as that of the cusp.
     ///
     /// # Errors
     /// No such start.
     pub fn extremal<S: Real>(&self, metric: &Metric<S>) -> Result<Extremal<S>, NodeError> {
         let branch = if self.branch < 0 { Branch::Descending } else { Branch::Ascending };
-        let clairaut = Clairaut::Delta(S::from_f64(self.delta));
-        let start = Start::Darboux { phi0: S::from_f64(self.phi0), clairaut, branch };
-        Extremal::new(metric, start).map_err(failed(&self.to_string()))
+        let (phi0, delta) = (S::from_f64(self.phi0), S::from_f64(self.delta));
+        let start = |delta| Start::Darboux { phi0, clairaut: Clairaut::Delta(delta), branch };
+        match Extremal::new(metric, start(delta)) {
+            Err(StartError::ClairautTooLarge { .. }) if is_rounded_cusp(delta, largest_delta(metric, phi0)) => {
+                Extremal::new(metric, start(largest_delta(metric, phi0)))
+            }
+            found => found,
+        }
+        .map_err(failed(&self.to_string()))
     }
 
     /// The starts in a table's columns `phi0`, `delta`, `branch`.

@@ -9,9 +9,10 @@
 //! arithmetic, and that is what counts: one allowed difference serves all rows. Starts and δ are exact inputs of both routes, so the difference is all error.
 
 use super::body::{Body, ClairautStart};
-use crate::contract::accuracy::{ARTICLE, Accuracy};
+use crate::contract::accuracy::{ARTICLE, Accuracy, Arithmetic};
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::{ROUNDED_TWICE, long_tolerance, of_tolerance};
 use crate::effects::counted::integrated;
 use crate::effects::product::{failed, input_table, product};
 use crate::geometry::serret_andoyer::flow::first_conjugate_time_by_integration;
@@ -36,16 +37,19 @@ const DOUBLE_DOUBLE_TOLERANCE: f64 = 1e-28;
 pub struct ConjugatePointsByIntegration {
     /// The body.
     pub body: Body,
-    /// Relative error per step.
+    /// Relative error per step; below the ε of f64 in double-double.
     pub tolerance: f64,
     /// Largest relative difference allowed between the routes.
     pub allowed: f64,
 }
 
 impl ConjugatePointsByIntegration {
-    /// At an accuracy: full accuracy for `article`, a tenth of what is asked otherwise.
+    /// At an accuracy: full accuracy for `article`, a tenth of what is asked above, double-double below.
     pub fn new(body: Body, accuracy: Accuracy) -> Self {
         let asked = accuracy.relative_error();
+        if let Some(tolerance) = long_tolerance(accuracy) {
+            return Self { body, tolerance, allowed: ROUNDED_TWICE.max(100.0 * asked) };
+        }
         let full = asked <= ARTICLE;
         let tolerance = if full { f64::EPSILON } else { asked / 10.0 };
         Self { body, tolerance, allowed: if full { ALLOWED } else { asked.max(ALLOWED) } }
@@ -60,6 +64,7 @@ pub const KIND: Kind = Kind {
         "effects/serret_andoyer/by_integration.rs",
         "effects/serret_andoyer/body.rs",
         "effects/counted.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/serret_andoyer",
         "numerics",
@@ -110,14 +115,26 @@ impl Compute for ConjugatePointsByIntegration {
         let rows = (starts.par_iter().zip(t1))
             .map(|(start, t1)| {
                 // The first conjugate time lies between T/2 and T: twice the first route's is beyond it.
-                let short = integrate::<f64>(&self.body, start, 2.0 * t1, self.tolerance)?;
-                if (short.t1 - t1).abs() <= TENTH * self.allowed * t1.abs() {
-                    return Ok(short);
+                if of_tolerance(self.tolerance) == Arithmetic::DoubleDouble {
+                    let long = integrate::<DoubleDouble>(&self.body, start, 2.0 * t1, self.tolerance)?;
+                    return Ok(Found { double_double: true, ..long });
+                }
+                let near = |found: &Found| (found.t1 - t1).abs() <= TENTH * self.allowed * t1.abs();
+                let mut before = Work::default();
+                // Below full accuracy what the separatrix multiplies is the error of steps: then smaller steps do.
+                let full = (self.tolerance > f64::EPSILON).then_some(f64::EPSILON);
+                for tolerance in [Some(self.tolerance), full].into_iter().flatten() {
+                    // An extremal that is lost near the separatrix has no conjugate time, or a late one.
+                    let Ok(short) = integrate::<f64>(&self.body, start, 2.0 * t1, tolerance) else { continue };
+                    if near(&short) {
+                        return Ok(Found { work: before + short.work, ..short });
+                    }
+                    before += short.work;
                 }
                 // Errors of steps grow by less than 1/δ: a hundredth of what is allowed is left for them.
                 let tolerance = (0.01 * self.allowed * start.delta).max(DOUBLE_DOUBLE_TOLERANCE);
                 let long = integrate::<DoubleDouble>(&self.body, start, 2.0 * t1, tolerance)?;
-                Ok(Found { work: short.work + long.work, double_double: true, ..long })
+                Ok(Found { work: before + long.work, double_double: true, ..long })
             })
             .collect::<Result<Vec<Found>, NodeError>>()?;
         let pairs = |first: &[f64], second: fn(&Found) -> f64, scale: fn(f64) -> f64| -> Vec<f64> {

@@ -5,8 +5,10 @@
 //! ψ0, but not in `p_θ`), and then in √(log 1/δ) towards the separatrix: ever wider apart where the locus runs to infinity.
 
 use super::body::{Body, ClairautStart};
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::in_arithmetic;
 use crate::effects::product::{failed, product};
 use crate::geometry::serret_andoyer::{ConjugatePoint, Extremal, Metric, first_conjugate_point};
 use crate::numerics::real::Real;
@@ -76,6 +78,7 @@ pub const KIND: Kind = Kind {
     code: &[
         "effects/serret_andoyer/conjugate_locus.rs",
         "effects/serret_andoyer/body.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/serret_andoyer",
         "numerics",
@@ -84,14 +87,17 @@ pub const KIND: Kind = Kind {
     measurement: false,
 };
 
+/// An extremal and its first conjugate point.
+pub type OnExtremal<S> = (Extremal<S>, ConjugatePoint<S>);
+
 /// The first conjugate points of these starts.
 ///
 /// # Errors
 /// A start without a conjugate point, by its parameters.
-pub fn conjugate_points(
-    metric: &Metric,
+pub fn conjugate_points<S: Real>(
+    metric: &Metric<S>,
     starts: &[ClairautStart],
-) -> Result<Vec<(Extremal, ConjugatePoint)>, NodeError> {
+) -> Result<Vec<OnExtremal<S>>, NodeError> {
     let point = |start: &ClairautStart| {
         let extremal = start.extremal(metric)?;
         let point = first_conjugate_point(&extremal).map_err(failed(&start.to_string()))?;
@@ -101,7 +107,7 @@ pub fn conjugate_points(
 }
 
 /// The work of closed-form conjugate points.
-pub fn closed_form_work(points: &[(Extremal, ConjugatePoint)]) -> Work {
+pub fn closed_form_work<S: Real>(points: &[OnExtremal<S>]) -> Work {
     let elliptic_calls = points.iter().map(|(_, point)| point.elliptic_calls as u64).sum();
     let roots_solved = points.iter().filter(|(_, point)| point.iterations > 0).count() as u64;
     Work { elliptic_calls, roots_solved, ..Work::default() }
@@ -112,14 +118,28 @@ impl Compute for ConjugateLocus {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        in_arithmetic!(arithmetic, S => self.computed::<S>())
+    }
+}
+
+impl ConjugateLocus {
+    fn computed<S: Real>(&self) -> Result<Product, NodeError> {
         let metric = self.body.metric::<f64>()?;
         let deltas = self.spacing.deltas(&metric, self.phi0)?;
         let start = |branch| move |delta: &f64| ClairautStart { phi0: self.phi0, delta: *delta, branch };
         let ascending = deltas.iter().rev().map(start(1));
         let starts: Vec<ClairautStart> = ascending.chain(deltas.iter().skip(1).map(start(-1))).collect();
-        let points = conjugate_points(&metric, &starts)?;
-        let column = |f: fn(&(Extremal, ConjugatePoint)) -> f64| points.iter().map(f).collect::<Vec<_>>();
+        let points = conjugate_points(&self.body.metric::<S>()?, &starts)?;
+        let column = |f: fn(&OnExtremal<S>) -> S| points.iter().map(|row| f(row).to_f64()).collect::<Vec<_>>();
         let table = Table::builder("conjugate-locus", "first conjugate points of one start, p_θ > 0")
             .column("phi0", "length", "distance of the start from the equator", vec![self.phi0; starts.len()])
             .column("delta", "1", "B p_θ² − 1", starts.iter().map(|s| s.delta).collect::<Vec<_>>())

@@ -5,8 +5,10 @@
 //! `h⁶ (√μ)⁽⁸⁾/560`, below 1e-16 for the article's body, and rounding of 1e-26.
 
 use super::body::Body;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::in_arithmetic;
 use crate::effects::product::{failed, product};
 use crate::geometry::serret_andoyer::Metric;
 use crate::numerics::double_double::DoubleDouble;
@@ -52,6 +54,7 @@ pub const KIND: Kind = Kind {
     code: &[
         "effects/serret_andoyer/curvature.rs",
         "effects/serret_andoyer/body.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/serret_andoyer",
         "numerics",
@@ -60,12 +63,32 @@ pub const KIND: Kind = Kind {
     measurement: false,
 };
 
+impl Curvature {
+    /// z, μ and G by their formulas.
+    fn formulas<S: Real>(&self, phi: &[f64]) -> Result<Vec<[f64; 3]>, NodeError> {
+        let metric = self.body.metric::<S>()?;
+        let row = |phi: &f64| {
+            let phi = S::from_f64(*phi);
+            [S::from_f64(2.0) * metric.z(phi), metric.mu(phi), metric.gauss_curvature(phi)].map(S::to_f64)
+        };
+        Ok(phi.iter().map(row).collect())
+    }
+}
+
 impl Compute for Curvature {
     fn kind(&self) -> &'static Kind {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
         if self.points < 3 || self.points.is_multiple_of(2) {
             return Err(NodeError::new(format!("points = {}: an odd number of at least 3 is needed", self.points)));
         }
@@ -74,11 +97,12 @@ impl Compute for Curvature {
         let half = (self.points / 2) as f64;
         let phi: Vec<f64> = (0..self.points).map(|i| metric.half_width() * ((i as f64 - half) / half)).collect();
         let by_differences: Vec<f64> = phi.par_iter().map(|phi| curvature_by_differences(&long, *phi)).collect();
-        let of = |f: fn(&Metric, f64) -> f64| phi.iter().map(|phi| f(&metric, *phi)).collect::<Vec<_>>();
+        let formulas = in_arithmetic!(arithmetic, S => self.formulas::<S>(&phi))?;
+        let of = |i: usize| formulas.iter().map(|row| row[i]).collect::<Vec<_>>();
         let table = Table::builder("curvature", "metric coefficient and Gauss curvature over the strip |φ| ≤ K(k)/α")
-            .column("z", "1/length²", "z(φ) = 2/μ(φ)", of(|metric, phi| 2.0 * metric.z(phi)))
-            .column("mu", "length²", "μ(φ), the square of the radius of the parallel", of(Metric::mu))
-            .column("curvature", "1/length²", "Gauss curvature, formula in z", of(Metric::gauss_curvature))
+            .column("z", "1/length²", "z(φ) = 2/μ(φ)", of(0))
+            .column("mu", "length²", "μ(φ), the square of the radius of the parallel", of(1))
+            .column("curvature", "1/length²", "Gauss curvature, formula in z", of(2))
             .column("curvature_by_differences", "1/length²", "Gauss curvature, −(√μ)''/√μ", by_differences)
             .column("phi", "length", "distance from the equator", phi)
             .build()

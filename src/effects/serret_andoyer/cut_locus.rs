@@ -3,13 +3,16 @@
 //! Rows run from the cusp of the conjugate locus, the end of the ray, outwards. With the derivatives of the first return
 //! `R = Δθ` by `p_θ`, for Proposition 3.23.
 
-use super::body::Body;
+use super::body::{Body, delta_at};
 use super::conjugate_locus::Spacing;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::in_arithmetic;
 use crate::effects::product::{failed, product};
 use crate::geometry::serret_andoyer::Clairaut;
 use crate::geometry::serret_andoyer::period::{Period, period};
+use crate::numerics::real::Real;
 use crate::table::Table;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -36,6 +39,7 @@ pub const KIND: Kind = Kind {
         "effects/serret_andoyer/cut_locus.rs",
         "effects/serret_andoyer/conjugate_locus.rs",
         "effects/serret_andoyer/body.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/serret_andoyer",
         "numerics",
@@ -49,14 +53,32 @@ impl Compute for CutLocus {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        in_arithmetic!(arithmetic, S => self.computed::<S>())
+    }
+}
+
+impl CutLocus {
+    fn computed<S: Real>(&self) -> Result<Product, NodeError> {
         let metric = self.body.metric::<f64>()?;
         let deltas = self.spacing.deltas(&metric, self.phi0)?;
-        let rows: Vec<Period> = deltas
+        let metric = self.body.metric::<S>()?;
+        let rows: Vec<Period<S>> = deltas
             .par_iter()
-            .map(|delta| period(&metric, Clairaut::Delta(*delta)).map_err(failed(&format!("delta = {delta:?}"))))
+            .map(|delta| {
+                period(&metric, Clairaut::Delta(delta_at(&metric, self.phi0, *delta)))
+                    .map_err(failed(&format!("delta = {delta:?}")))
+            })
             .collect::<Result<_, _>>()?;
-        let column = |f: fn(&Period) -> f64| rows.iter().map(f).collect::<Vec<_>>();
+        let column = |f: fn(&Period<S>) -> S| rows.iter().map(|row| f(row).to_f64()).collect::<Vec<_>>();
         let table = Table::builder("cut-locus", "cut points of one start, p_θ > 0")
             .column("p_theta", "1", "Clairaut's constant", column(|row| row.p_theta))
             .column("t", "length", "time of the cut point, half a period", column(|row| row.half_period))

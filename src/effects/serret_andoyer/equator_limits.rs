@@ -4,13 +4,15 @@
 //! `πA√A/√((B−A)(C−A))`, a factor √A too much. Arc length (`h = 1/2`), radians.
 
 use super::body::Body;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::in_arithmetic;
 use crate::effects::quantities::Quantities;
 use crate::geometry::serret_andoyer::conjugate::equator_conjugate_time;
 use crate::geometry::serret_andoyer::period::equator_limits;
+use crate::numerics::real::Real;
 use serde::Serialize;
-use std::f64::consts::PI;
 
 /// The limits of one body.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -26,6 +28,7 @@ pub const KIND: Kind = Kind {
     code: &[
         "effects/serret_andoyer/equator_limits.rs",
         "effects/serret_andoyer/body.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "effects/quantities.rs",
         "geometry/serret_andoyer",
@@ -43,12 +46,26 @@ impl Compute for EquatorConjugatePoint {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let metric = self.body.metric::<f64>()?;
-        let t_star = equator_conjugate_time(&metric, 0.5);
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        in_arithmetic!(arithmetic, S => self.computed::<S>())
+    }
+}
+
+impl EquatorConjugatePoint {
+    fn computed<S: Real>(&self) -> Result<Product, NodeError> {
+        let metric = self.body.metric::<S>()?;
+        let t_star = equator_conjugate_time(&metric, S::from_f64(0.5));
         let theta_star = equator_limits(&metric).first_return;
-        let curvature = metric.gauss_curvature(0.0);
-        let rounded = |x: f64| (x, ROUNDING * x);
+        let curvature = metric.gauss_curvature(S::ZERO);
+        let rounded = |x: S| (x.to_f64(), ROUNDING * x.to_f64());
         let mut table = Quantities::new("equator-conjugate-point", "the first conjugate point on the equator");
         table.add(
             "t_star",
@@ -73,7 +90,7 @@ impl Compute for EquatorConjugatePoint {
         );
         table.add(
             "t_star_from_curvature",
-            rounded(PI / curvature.sqrt()),
+            rounded(S::PI / curvature.sqrt()),
             "length",
             "first conjugate time on the equator from the Gauss curvature there",
             "π/√G(0), Lemma 3.18, with G from Proposition 3.21",

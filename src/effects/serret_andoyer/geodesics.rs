@@ -5,10 +5,13 @@
 //! `p_θ = C^(−1/2)`, the largest constant `p_θ = √μ(φ0)` (from the equator: the equator itself).
 
 use super::body::Body;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::in_arithmetic;
 use crate::effects::product::{failed, product};
 use crate::geometry::serret_andoyer::{Branch, Clairaut, Extremal, ExtremalClass, Start};
+use crate::numerics::real::Real;
 use crate::table::Table;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -58,6 +61,7 @@ pub const KIND: Kind = Kind {
     code: &[
         "effects/serret_andoyer/geodesics.rs",
         "effects/serret_andoyer/body.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/serret_andoyer",
         "numerics",
@@ -86,39 +90,55 @@ impl Compute for Geodesics {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let metric = self.body.metric::<f64>()?;
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        in_arithmetic!(arithmetic, S => self.computed::<S>())
+    }
+}
+
+impl Geodesics {
+    fn computed<S: Real>(&self) -> Result<Product, NodeError> {
+        let metric = self.body.metric::<S>()?;
+        let phi0 = S::from_f64(self.phi0);
         if self.points < 2 {
             return Err(NodeError::new(format!("points = {}: at least 2 are needed", self.points)));
         }
-        let mut wanted: Vec<(Clairaut, Option<&str>)> =
-            self.p_theta.iter().map(|p_theta| (Clairaut::PTheta(*p_theta), None)).collect();
+        let mut wanted: Vec<(Clairaut<S>, Option<&str>)> =
+            self.p_theta.iter().map(|p_theta| (Clairaut::PTheta(S::from_f64(*p_theta)), None)).collect();
         if self.separatrix {
-            wanted.push((Clairaut::Delta(0.0), None));
+            wanted.push((Clairaut::Delta(S::ZERO), None));
         }
         if self.minor_axis {
             wanted.push((Clairaut::PTheta(metric.minor_axis_clairaut()), Some(PERMANENT_ROTATION)));
         }
         if self.parallel {
-            wanted.push((Clairaut::PTheta(metric.mu(self.phi0).sqrt()), None));
+            wanted.push((Clairaut::PTheta(metric.mu(phi0).sqrt()), None));
         }
         let both = [Branch::Ascending, Branch::Descending];
         let wanted: Vec<_> = wanted.iter().flat_map(|(p, class)| both.map(|branch| (*p, *class, branch))).collect();
-        let curve = |&(clairaut, class, branch): &(Clairaut, Option<&'static str>, Branch)| {
-            let start = Start::Darboux { phi0: self.phi0, clairaut, branch };
+        let curve = |&(clairaut, class, branch): &(Clairaut<S>, Option<&'static str>, Branch)| {
+            let start = Start::Darboux { phi0, clairaut, branch };
             let extremal = Extremal::new(&metric, start).map_err(failed(&format!("{clairaut:?}")))?;
-            let p = extremal.p_x().abs();
-            let along = self.theta_end / (p * metric.a());
-            let across = (self.phi_end + self.phi0.abs()) / (1.0 - p * p * metric.b()).max(0.0).sqrt();
+            let Body { a, b, .. } = self.body;
+            let p = extremal.p_x().abs().to_f64();
+            let along = self.theta_end / (p * a);
+            let across = (self.phi_end + self.phi0.abs()) / (1.0 - p * p * b).max(0.0).sqrt();
             let end = along.min(across);
             let path = extremal.path();
             let rows = (0..self.points).map(|i| {
                 let t = end * (i as f64 / (self.points - 1) as f64);
-                let at = path.position(t);
-                (t, at.theta, at.phi)
+                let at = path.position(S::from_f64(t));
+                (t, at.theta.to_f64(), at.phi.to_f64())
             });
             let class = class.unwrap_or(class_name(extremal.class()));
-            Ok((extremal.p_x(), extremal.direction() as i64, class, rows.collect::<Vec<_>>()))
+            Ok((extremal.p_x().to_f64(), extremal.direction().to_f64() as i64, class, rows.collect::<Vec<_>>()))
         };
         let curves = wanted.par_iter().map(curve).collect::<Result<Vec<_>, NodeError>>()?;
         let count = curves.len() * self.points;

@@ -3,8 +3,10 @@
 //! `p_x² = 2h/(A + ξ1 (B − A))`, `p_y² (C − Z) = p_x² (B − A)(ξ1 − cos² y0)`.
 
 use super::body::Body;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::in_arithmetic;
 use crate::effects::counted::integrated;
 use crate::effects::product::failed;
 use crate::effects::quantities::Quantities;
@@ -36,6 +38,7 @@ pub const KIND: Kind = Kind {
         "effects/serret_andoyer/named_start.rs",
         "effects/serret_andoyer/body.rs",
         "effects/counted.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "effects/quantities.rs",
         "geometry/serret_andoyer",
@@ -71,14 +74,29 @@ impl Compute for NamedStart {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let metric = self.body.metric::<f64>()?;
-        let (p_x, p_y) = self.momenta::<f64>()?;
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        in_arithmetic!(arithmetic, S => self.computed::<S>())
+    }
+}
+
+impl NamedStart {
+    fn computed<S: Real>(&self) -> Result<Product, NodeError> {
+        let metric = self.body.metric::<S>()?;
+        let (p_x, p_y) = self.momenta::<S>()?;
+        let y0 = S::from_f64(self.y0);
         let doing = format!("{self:?}");
-        let extremal = Extremal::new(&metric, Start::Momenta { y0: self.y0, p_x, p_y }).map_err(failed(&doing))?;
+        let extremal = Extremal::new(&metric, Start::Momenta { y0, p_x, p_y }).map_err(failed(&doing))?;
         let time = first_conjugate_time(&extremal).map_err(failed(&doing))?;
         let bounds = conjugate_time_bounds(&extremal).map_err(failed(&doing))?;
-        let back = Extremal::new(&metric, Start::Momenta { y0: self.y0, p_x, p_y: -p_y }).map_err(failed(&doing))?;
+        let back = Extremal::new(&metric, Start::Momenta { y0, p_x, p_y: -p_y }).map_err(failed(&doing))?;
         let backward = conjugate_time_bounds(&back).map_err(failed(&doing))?.ratio;
         let long = self.body.metric::<DoubleDouble>()?;
         let (q_x, q_y) = self.momenta::<DoubleDouble>()?;
@@ -91,22 +109,36 @@ impl Compute for NamedStart {
             q_x,
             q_y,
             number(0.0),
-            number(2.0 * time.t1),
+            number(2.0 * time.t1.to_f64()),
             TOLERANCE,
         )
         .map_err(failed(&doing))?;
         // The momenta are rounded, so ξ1 is known to 8 ε of 1/(1 − ξ1), and t1 M/K moves by less than that.
-        let error = time.error + 8.0 * f64::EPSILON / (1.0 - self.xi1);
+        let error = time.error.to_f64() + 8.0 * f64::EPSILON / (1.0 - self.xi1);
         let mut table = Quantities::new("named-start", "first conjugate time of one extremal, by both routes");
         let mut add = |name: &str, value: f64, relative: f64, unit: &str, meaning: &str, route: &str| {
             table.add(name, (value, relative * value.abs()), unit, meaning, route);
         };
         let closed = "closed form, equation (15) without poles";
-        add("counterexample_ratio", bounds.ratio, error, "1", "t1 M/K of the named start, t > 0", closed);
-        add("counterexample_ratio_backward", backward, error, "1", "the same backward in time", closed);
+        add("counterexample_ratio", bounds.ratio.to_f64(), error, "1", "t1 M/K of the named start, t > 0", closed);
+        add("counterexample_ratio_backward", backward.to_f64(), error, "1", "the same backward in time", closed);
         let phase = extremal.psi0() / extremal.complete_k();
-        add("counterexample_phase", phase, error, "1", "ψ0/K of the named start", "incomplete elliptic integral");
-        add("counterexample_time", time.t1, error, "time", "first conjugate time t1 of the named start", closed);
+        add(
+            "counterexample_phase",
+            phase.to_f64(),
+            error,
+            "1",
+            "ψ0/K of the named start",
+            "incomplete elliptic integral",
+        );
+        add(
+            "counterexample_time",
+            time.t1.to_f64(),
+            error,
+            "time",
+            "first conjugate time t1 of the named start",
+            closed,
+        );
         add(
             "counterexample_time_by_integration",
             second.t1.to_f64(),

@@ -3,13 +3,16 @@
 //! Rows run from the equator, `p_θ = A^(−1/2)`, where both have limits, towards the separatrix `p_θ = B^(−1/2)`, where both grow like log 1/δ, `δ = B p_θ² − 1`.
 //! They do not depend on the start. Arc length, θ in radians.
 
-use super::body::Body;
+use super::body::{Body, delta_at};
 use super::conjugate_locus::Spacing;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::in_arithmetic;
 use crate::effects::product::{failed, product};
 use crate::geometry::serret_andoyer::Clairaut;
 use crate::geometry::serret_andoyer::period::{Period as Found, period};
+use crate::numerics::real::Real;
 use crate::table::Table;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -34,6 +37,7 @@ pub const KIND: Kind = Kind {
         "effects/serret_andoyer/period.rs",
         "effects/serret_andoyer/conjugate_locus.rs",
         "effects/serret_andoyer/body.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/serret_andoyer",
         "numerics",
@@ -47,14 +51,32 @@ impl Compute for Period {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        in_arithmetic!(arithmetic, S => self.computed::<S>())
+    }
+}
+
+impl Period {
+    fn computed<S: Real>(&self) -> Result<Product, NodeError> {
         let metric = self.body.metric::<f64>()?;
         let deltas = self.spacing.deltas(&metric, 0.0)?;
-        let rows: Vec<Found> = deltas
+        let metric = self.body.metric::<S>()?;
+        let rows: Vec<Found<S>> = deltas
             .par_iter()
-            .map(|delta| period(&metric, Clairaut::Delta(*delta)).map_err(failed(&format!("delta = {delta:?}"))))
+            .map(|delta| {
+                period(&metric, Clairaut::Delta(delta_at(&metric, 0.0, *delta)))
+                    .map_err(failed(&format!("delta = {delta:?}")))
+            })
             .collect::<Result<_, _>>()?;
-        let column = |f: fn(&Found) -> f64| rows.iter().map(f).collect::<Vec<_>>();
+        let column = |f: fn(&Found<S>) -> S| rows.iter().map(|row| f(row).to_f64()).collect::<Vec<_>>();
         let table = Table::builder("period", "period and first return of oscillating extremals")
             .column("p_theta", "1", "Clairaut's constant, from A^(−1/2) towards B^(−1/2)", column(|row| row.p_theta))
             .column("delta", "1", "B p_θ² − 1", deltas)

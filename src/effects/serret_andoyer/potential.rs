@@ -5,10 +5,13 @@
 
 use super::body::Body;
 use super::geodesics::{EQUATOR, SEPARATRIX, class_name};
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::in_arithmetic;
 use crate::effects::product::{failed, product};
 use crate::geometry::serret_andoyer::{Branch, Clairaut, Extremal, Start, StartError};
+use crate::numerics::real::Real;
 use crate::table::Table;
 use serde::Serialize;
 
@@ -40,6 +43,7 @@ pub const KIND: Kind = Kind {
         "effects/serret_andoyer/potential.rs",
         "effects/serret_andoyer/geodesics.rs",
         "effects/serret_andoyer/body.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/serret_andoyer",
         "numerics",
@@ -53,38 +57,55 @@ impl Compute for Potential {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        in_arithmetic!(arithmetic, S => self.computed::<S>())
+    }
+}
+
+impl Potential {
+    fn computed<S: Real>(&self) -> Result<Product, NodeError> {
         if self.points < 3 || self.points.is_multiple_of(2) {
             return Err(NodeError::new(format!("points = {}: an odd number of at least 3 is needed", self.points)));
         }
         let metric = self.body.metric::<f64>()?;
         let half = (self.points / 2) as f64;
-        let at: Vec<(f64, f64)> = (0..self.points)
-            .map(|i| metric.half_width() * ((i as f64 - half) / half))
-            .map(|phi| (phi, metric.z(phi)))
+        let width = metric.half_width();
+        let metric = self.body.metric::<S>()?;
+        let at: Vec<(f64, S)> = (0..self.points)
+            .map(|i| width * ((i as f64 - half) / half))
+            .map(|phi| (phi, metric.z(S::from_f64(phi))))
             .collect();
+        let phi0 = S::from_f64(self.phi0);
         let limits = [
             (SEPARATRIX, metric.separatrix_clairaut()),
             (EQUATOR, metric.equator_clairaut()),
-            (START, metric.mu(self.phi0).sqrt()),
+            (START, metric.mu(phi0).sqrt()),
         ];
-        let curves = limits.into_iter().chain(self.p_theta.iter().map(|p_theta| (FAMILY, *p_theta)));
+        let curves = limits.into_iter().chain(self.p_theta.iter().map(|p_theta| (FAMILY, S::from_f64(*p_theta))));
         let (mut curve, mut class) = (Vec::new(), Vec::new());
         let (mut p_theta, mut phi, mut potential) = (Vec::new(), Vec::new(), Vec::new());
         for (name, p) in curves {
-            let clairaut = if name == SEPARATRIX { Clairaut::Delta(0.0) } else { Clairaut::PTheta(p) };
-            let start = Start::Darboux { phi0: self.phi0, clairaut, branch: Branch::Ascending };
+            let clairaut = if name == SEPARATRIX { Clairaut::Delta(S::ZERO) } else { Clairaut::PTheta(p) };
+            let start = Start::Darboux { phi0, clairaut, branch: Branch::Ascending };
             let kind = match Extremal::new(&metric, start) {
                 Ok(extremal) => class_name(extremal.class()),
                 Err(StartError::ClairautTooLarge { .. }) => NONE,
-                Err(error) => return Err(failed(&format!("p_theta = {p:?}"))(error)),
+                Err(error) => return Err(failed(&format!("p_theta = {:?}", p.to_f64()))(error)),
             };
             for (x, z) in &at {
                 curve.push(name);
                 class.push(kind);
-                p_theta.push(p);
+                p_theta.push(p.to_f64());
                 phi.push(*x);
-                potential.push(p * p * z);
+                potential.push((p * p * *z).to_f64());
             }
         }
         let table = Table::builder("potential", "potentials of φ'² + V = 1 over the strip |φ| ≤ K(k)/α")

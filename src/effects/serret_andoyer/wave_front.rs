@@ -7,8 +7,10 @@
 //! separatrices, which a uniform fan would miss.
 
 use super::body::Body;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::in_arithmetic;
 use crate::effects::product::{failed, product};
 use crate::geometry::serret_andoyer::{Extremal, Metric, Position, Start};
 use crate::numerics::real::Real;
@@ -44,6 +46,7 @@ pub const KIND: Kind = Kind {
     code: &[
         "effects/serret_andoyer/wave_front.rs",
         "effects/serret_andoyer/body.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/serret_andoyer",
         "numerics",
@@ -54,34 +57,36 @@ pub const KIND: Kind = Kind {
 
 /// All directions from one point.
 #[derive(Clone, Copy, Debug)]
-pub struct Directions {
-    metric: Metric,
-    y0: f64,
-    largest_p_theta: f64,
-    p_y_scale: f64,
+pub struct Directions<S: Real = f64> {
+    metric: Metric<S>,
+    y0: S,
+    largest_p_theta: S,
+    p_y_scale: S,
 }
 
-impl Directions {
+impl<S: Real> Directions<S> {
     /// The directions from `(0, φ0)`.
     ///
     /// # Errors
     /// A start outside the strip.
-    pub fn new(metric: &Metric, phi0: f64) -> Result<Self, NodeError> {
+    pub fn new(metric: &Metric<S>, phi0: f64) -> Result<Self, NodeError> {
         let width = metric.half_width();
-        if phi0.is_nan() || phi0.abs() >= width {
+        if phi0.is_nan() || S::from_f64(phi0).abs() >= width {
+            let width = width.to_f64();
             return Err(NodeError::new(format!("phi0 = {phi0:?}: |phi0| < K(k)/alpha = {width:?} is needed")));
         }
+        let phi0 = S::from_f64(phi0);
         let jacobi = metric.jacobi_of_phi(phi0);
         Ok(Self {
             metric: *metric,
             y0: metric.y_of_phi(phi0),
-            largest_p_theta: 1.0 / metric.z_of_sine(jacobi.sn).sqrt(),
-            p_y_scale: 1.0 / metric.c_minus_z_of_cosine(jacobi.cn).sqrt(),
+            largest_p_theta: S::ONE / metric.z_of_sine(jacobi.sn).sqrt(),
+            p_y_scale: S::ONE / metric.c_minus_z_of_cosine(jacobi.cn).sqrt(),
         })
     }
 
     /// `p_θ = √μ(φ0) sin χ`.
-    pub fn p_theta(&self, chi: f64) -> f64 {
+    pub fn p_theta(&self, chi: S) -> S {
         self.largest_p_theta * Real::sin(chi)
     }
 
@@ -89,11 +94,11 @@ impl Directions {
     ///
     /// # Errors
     /// A start that is refused.
-    pub fn at(&self, chi: f64, t: f64) -> Result<Position, NodeError> {
+    pub fn at(&self, chi: S, t: f64) -> Result<Position<S>, NodeError> {
         let p_y = self.p_y_scale * Real::cos(chi);
         let start = Start::Momenta { y0: self.y0, p_x: self.p_theta(chi), p_y };
-        let extremal = Extremal::new(&self.metric, start).map_err(failed(&format!("chi = {chi:?}")))?;
-        Ok(extremal.position(t))
+        let extremal = Extremal::new(&self.metric, start).map_err(failed(&format!("chi = {:?}", chi.to_f64())))?;
+        Ok(extremal.position(S::from_f64(t)))
     }
 }
 
@@ -101,6 +106,22 @@ impl Directions {
 type Point = (f64, f64, f64);
 
 impl WaveFront {
+    /// The same directions in another scalar, rounded.
+    fn again<S: Real>(&self, points: &[Point]) -> Result<Vec<Point>, NodeError> {
+        let directions = Directions::new(&self.body.metric::<S>()?, self.phi0)?;
+        let place = |point: &Point| {
+            let at = directions.at(S::from_f64(point.0), self.t)?;
+            Ok((point.0, at.theta.to_f64(), at.phi.to_f64()))
+        };
+        points.par_iter().map(place).collect()
+    }
+
+    /// Clairaut's constants of the points.
+    fn p_theta<S: Real>(&self, points: &[Point]) -> Result<Vec<f64>, NodeError> {
+        let directions = Directions::new(&self.body.metric::<S>()?, self.phi0)?;
+        Ok(points.iter().map(|point| directions.p_theta(S::from_f64(point.0)).to_f64()).collect())
+    }
+
     fn point(&self, directions: &Directions, chi: f64) -> Result<Point, NodeError> {
         let at = directions.at(chi, self.t)?;
         Ok((chi, at.theta, at.phi))
@@ -136,7 +157,15 @@ impl Compute for WaveFront {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
         if !(self.t > 0.0 && self.flatness > 0.0) {
             return Err(NodeError::new(format!("t = {:?}, flatness = {:?}: above 0 is needed", self.t, self.flatness)));
         }
@@ -153,11 +182,14 @@ impl Compute for WaveFront {
         let mut points = vec![self.point(&directions, 0.0)?];
         points.extend(pieces.into_iter().flatten());
         let right = points.len();
+        if arithmetic == Arithmetic::DoubleDouble {
+            points = in_arithmetic!(arithmetic, S => self.again::<S>(&points))?;
+        }
         // The mirror image, on around the start; both meridians are in it once.
         let mirrored: Vec<Point> = points[..right - 1].iter().rev().map(|p| (2.0 * PI - p.0, -p.1, p.2)).collect();
         points.extend(mirrored);
         let column = |f: fn(&Point) -> f64| points.iter().map(f).collect::<Vec<_>>();
-        let p_theta = points.iter().map(|p| directions.p_theta(p.0)).collect::<Vec<_>>();
+        let p_theta = in_arithmetic!(arithmetic, S => self.p_theta::<S>(&points))?;
         let table = Table::builder("wave-front", "points at one arc length from a start, around it")
             .column("chi", "rad", "direction, from the meridian", column(|p| p.0))
             .column("p_theta", "1", "Clairaut's constant", p_theta)
@@ -166,7 +198,8 @@ impl Compute for WaveFront {
             .build()
             .map_err(failed("wave front"))?;
         // Each kept point is the end of a piece, and each piece had a middle.
-        let computed = 2 * (right as u64 - 1) + PIECES as u64 + 1;
+        let again = if arithmetic == Arithmetic::F64 { 0 } else { right as u64 };
+        let computed = 2 * (right as u64 - 1) + PIECES as u64 + 1 + again;
         product(&table, Work { elliptic_calls: ELLIPTIC_CALLS * computed, dense_points: computed, ..Work::default() })
     }
 }

@@ -9,11 +9,14 @@
 
 use super::chart::{Place, coarse, continuous, distance, extend, far, wrapped};
 use super::momenta::Momenta;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::NodeError;
 use crate::contract::work::Work;
 use crate::effects::product::failed;
 use crate::geometry::spin::conjugate::{ConjugatePoint, first_conjugate_point};
+use crate::geometry::spin::reference::first_conjugate_point_to_reference;
 use crate::geometry::spin::start::Start;
+use rayon::prelude::*;
 
 /// Intervals per decade of `p_θ` before any halving: what two samples and the one between them can't show is not missed.
 const INTERVALS_PER_DECADE: f64 = 2.0;
@@ -44,9 +47,50 @@ pub struct BranchPoint {
 /// # Errors
 /// k or p_θ outside the domain, named.
 pub fn conjugate_point(k: f64, p_theta: f64) -> Result<ConjugatePoint, NodeError> {
+    conjugate_point_in(Arithmetic::F64, k, p_theta)
+}
+
+/// The same in an arithmetic, rounded.
+///
+/// # Errors
+/// As [`conjugate_point`].
+pub fn conjugate_point_in(arithmetic: Arithmetic, k: f64, p_theta: f64) -> Result<ConjugatePoint, NodeError> {
     let doing = || format!("k = {k:?}, p_theta = {p_theta:?}");
     let start = Start::new(k, p_theta).map_err(failed(&doing()))?;
-    first_conjugate_point(&start).map_err(failed(&doing()))
+    let point = match arithmetic {
+        Arithmetic::F64 => first_conjugate_point(&start),
+        Arithmetic::DoubleDouble => first_conjugate_point_to_reference(&start),
+    };
+    point.map_err(failed(&doing()))
+}
+
+/// The branch of these momenta, ascending, in an arithmetic: θ continuous from the largest on.
+///
+/// # Errors
+/// As [`conjugate_point`].
+pub fn branch_of(arithmetic: Arithmetic, k: f64, momenta: &[f64]) -> Result<(Vec<BranchPoint>, Work), NodeError> {
+    let points = momenta.par_iter().map(|p| conjugate_point_in(arithmetic, k, *p));
+    let points = points.collect::<Result<Vec<_>, NodeError>>()?;
+    let elliptic_calls = points.iter().map(|point| u64::from(point.elliptic_calls)).sum();
+    let work = Work { roots_solved: points.len() as u64, elliptic_calls, ..Work::default() };
+    let mut theta = continuous(points.iter().rev().map(|point| point.theta));
+    theta.reverse();
+    let branch = momenta.iter().zip(points).zip(theta);
+    Ok((branch.map(|((p_theta, point), theta)| BranchPoint { p_theta: *p_theta, theta, point }).collect(), work))
+}
+
+/// The branch as [`sample`] samples it, its points in an arithmetic.
+///
+/// # Errors
+/// As [`sample`].
+pub fn sample_in(arithmetic: Arithmetic, k: f64, momenta: &Momenta) -> Result<(Vec<BranchPoint>, Work), NodeError> {
+    let (sampled, work) = sample(k, momenta)?;
+    if arithmetic == Arithmetic::F64 {
+        return Ok((sampled, work));
+    }
+    let momenta: Vec<f64> = sampled.iter().map(|row| row.p_theta).collect();
+    let (branch, more) = branch_of(arithmetic, k, &momenta)?;
+    Ok((branch, work + more))
 }
 
 /// Where a conjugate point stands.

@@ -12,9 +12,10 @@
 
 use super::branch::{rounding, slopes};
 use super::chart::distance;
-use crate::contract::accuracy::{ARTICLE, Accuracy};
+use crate::contract::accuracy::{ARTICLE, Accuracy, Arithmetic};
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::{ROUNDED_TWICE, long_tolerance, of_tolerance};
 use crate::effects::counted::integrated;
 use crate::effects::product::{failed, input_table, product};
 use crate::geometry::spin::lift::first_conjugate_time_by_integration;
@@ -44,21 +45,24 @@ const BEYOND: f64 = 1.25;
 pub struct ConjugateLocusByIntegration {
     /// The ratio of the couplings.
     pub k: f64,
-    /// Relative error per step in f64.
+    /// Relative error per step; below the ε of f64 in double-double.
     pub tolerance: f64,
     /// Largest relative difference of t1 that is allowed.
     pub allowed: f64,
 }
 
-/// The relative error per step that an accuracy asks for: f64's own for `article`.
+/// The relative error per step that an accuracy asks for: f64's own for `article`, less than that where it takes double-double.
 pub fn tolerance(accuracy: Accuracy) -> f64 {
     let asked = accuracy.relative_error();
-    if asked <= ARTICLE { f64::EPSILON } else { asked }
+    long_tolerance(accuracy).unwrap_or(if asked <= ARTICLE { f64::EPSILON } else { asked })
 }
 
 /// The largest relative difference of the routes that an accuracy allows.
 pub fn allowed(accuracy: Accuracy) -> f64 {
-    ALLOWED.max(ALLOWED_PER_ASKED * tolerance(accuracy))
+    match accuracy.arithmetic() {
+        Arithmetic::F64 => ALLOWED.max(ALLOWED_PER_ASKED * tolerance(accuracy)),
+        Arithmetic::DoubleDouble => ROUNDED_TWICE.max(ALLOWED_PER_ASKED * accuracy.relative_error()),
+    }
 }
 
 impl ConjugateLocusByIntegration {
@@ -78,6 +82,7 @@ pub const KIND: Kind = Kind {
         "effects/spin/chart.rs",
         "effects/spin/momenta.rs",
         "effects/counted.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/spin",
         "numerics",
@@ -105,13 +110,24 @@ impl ConjugateLocusByIntegration {
     fn row(&self, p_theta: f64, t1: f64, slope: f64) -> Result<Row, NodeError> {
         let t_max = BEYOND * t1;
         let mut before = counts::Work::default();
+        if of_tolerance(self.tolerance) == Arithmetic::DoubleDouble {
+            let row = integrate::<DoubleDouble>(self.k, p_theta, t_max, self.tolerance)?;
+            return Ok(Row { double_double: true, ..row });
+        }
         if rounding(p_theta, slope) <= SHARE * self.allowed {
-            let row = integrate::<f64>(self.k, p_theta, t_max, self.tolerance)?;
-            // Between the few starts of a list secants tell little about slopes: what rounding did there is seen here.
-            if (row.t1 / t1 - 1.0).abs() <= self.allowed {
-                return Ok(row);
+            // Below full accuracy what an extremal near the meridian multiplies is the error of steps: then smaller steps do.
+            let full = (self.tolerance > f64::EPSILON).then_some(f64::EPSILON);
+            for tolerance in [Some(self.tolerance), full].into_iter().flatten() {
+                let row = match integrate::<f64>(self.k, p_theta, t_max, tolerance) {
+                    Err(_) if tolerance > f64::EPSILON => continue,
+                    row => row?,
+                };
+                // Between the few starts of a list secants tell little about slopes: what rounding did there is seen here.
+                if (row.t1 / t1 - 1.0).abs() <= self.allowed {
+                    return Ok(Row { work: before.plus(row.work), ..row });
+                }
+                before = before.plus(row.work);
             }
-            before = row.work;
         }
         let row = integrate::<DoubleDouble>(self.k, p_theta, t_max, DOUBLE_DOUBLE_TOLERANCE)?;
         Ok(Row { double_double: true, work: before.plus(row.work), ..row })

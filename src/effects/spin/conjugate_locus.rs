@@ -4,6 +4,7 @@
 //! radians, times in the unit that `H = 1` fixes. The phase of the closed form is monotone, so no earlier conjugate time is missed.
 
 use super::starts::Starts;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::effects::product::{failed, product};
 use crate::table::Table;
@@ -41,8 +42,16 @@ impl Compute for ConjugateLocus {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let (branch, work) = self.p_theta.branch(self.k)?;
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        let (branch, work) = self.p_theta.branch_in(arithmetic, self.k)?;
         let column = |of: fn(&super::branch::BranchPoint) -> f64| branch.iter().map(of).collect::<Vec<f64>>();
         let crossings: Vec<i64> = branch.iter().map(|row| i64::from(row.point.crossings)).collect();
         let table = Table::builder("spin-conjugate-locus", "first conjugate points for p_φ(0) = −2, p_θ(0) ≥ 0")

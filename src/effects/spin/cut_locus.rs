@@ -10,12 +10,15 @@
 use super::chart::{Place, distance, extend};
 use super::momenta::Momenta;
 use super::starts::{Starts, ascending};
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::effects::product::{failed, product};
 use crate::geometry::spin::conjugate::{CutPoint, cut_point};
+use crate::geometry::spin::reference::cut_point_to_reference;
 use crate::geometry::spin::start::Start;
 use crate::table::Table;
+use rayon::prelude::*;
 use serde::Serialize;
 
 /// Intervals per decade of `p_θ` before any halving.
@@ -54,16 +57,21 @@ pub const KIND: Kind = Kind {
     measurement: false,
 };
 
-fn cut(k: f64, p_theta: f64) -> Result<CutPoint, NodeError> {
+fn cut(arithmetic: Arithmetic, k: f64, p_theta: f64) -> Result<CutPoint, NodeError> {
     let doing = || format!("k = {k:?}, p_theta = {p_theta:?}");
-    cut_point(&Start::new(k, p_theta).map_err(failed(&doing()))?).map_err(failed(&doing()))
+    let start = Start::new(k, p_theta).map_err(failed(&doing()))?;
+    let point = match arithmetic {
+        Arithmetic::F64 => cut_point(&start),
+        Arithmetic::DoubleDouble => cut_point_to_reference(&start),
+    };
+    point.map_err(failed(&doing()))
 }
 
 /// Cut points so dense that neighbours on the equator are at most `step` apart.
 fn sampled(k: f64, momenta: &Momenta, work: &mut Work) -> Result<Vec<(f64, CutPoint)>, NodeError> {
     let Momenta { from, to, step } = *momenta;
     let mut at = |p_theta: f64| {
-        let point = cut(k, p_theta)?;
+        let point = cut(Arithmetic::F64, k, p_theta)?;
         count(&point, work);
         Ok::<_, NodeError>(point)
     };
@@ -99,15 +107,32 @@ impl Compute for CutLocus {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
         let mut work = Work::default();
+        let mut computed = |momenta: &[f64]| {
+            let points = momenta.par_iter().map(|p| Ok((*p, cut(arithmetic, self.k, *p)?)));
+            let points = points.collect::<Result<Vec<_>, NodeError>>()?;
+            points.iter().for_each(|(_, point)| count(point, &mut work));
+            Ok::<_, NodeError>(points)
+        };
         let points = match &self.p_theta {
-            Starts::Branch(momenta) => sampled(self.k, momenta, &mut work)?,
-            Starts::Listed(listed) => {
-                let listed = ascending(self.k, listed)?;
-                let points = listed.iter().map(|p| Ok((*p, cut(self.k, *p)?)));
-                let points = points.collect::<Result<Vec<_>, NodeError>>()?;
-                points.iter().for_each(|(_, point)| count(point, &mut work));
+            Starts::Listed(listed) => computed(ascending(self.k, listed)?)?,
+            Starts::Branch(momenta) => {
+                let mut sampling = Work::default();
+                let points = sampled(self.k, momenta, &mut sampling)?;
+                let points = match arithmetic {
+                    Arithmetic::F64 => points,
+                    Arithmetic::DoubleDouble => computed(&points.iter().map(|(p, _)| *p).collect::<Vec<f64>>())?,
+                };
+                work += sampling;
                 points
             }
         };

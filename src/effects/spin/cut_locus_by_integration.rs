@@ -6,9 +6,10 @@
 
 use super::by_integration::{DOUBLE_DOUBLE_TOLERANCE, allowed, tolerance};
 use super::chart::distance;
-use crate::contract::accuracy::Accuracy;
+use crate::contract::accuracy::{Accuracy, Arithmetic};
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::of_tolerance;
 use crate::effects::counted::integrated;
 use crate::effects::product::{failed, input_table, product};
 use crate::geometry::spin::lift::equator_crossings;
@@ -30,7 +31,7 @@ const BEYOND: f64 = 1.25;
 pub struct CutLocusByIntegration {
     /// The ratio of the couplings.
     pub k: f64,
-    /// Relative error per step in f64.
+    /// Relative error per step; below the ε of f64 in double-double.
     pub tolerance: f64,
     /// Largest relative difference of t that is allowed.
     pub allowed: f64,
@@ -55,6 +56,7 @@ pub const KIND: Kind = Kind {
         "effects/spin/momenta.rs",
         "effects/spin/starts.rs",
         "effects/counted.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/spin",
         "numerics",
@@ -80,6 +82,10 @@ fn first_return<S: Real>(k: f64, p_theta: f64, t_max: f64, tolerance: f64) -> Re
 
 impl CutLocusByIntegration {
     fn row(&self, p_theta: f64, t: f64) -> Result<Row, NodeError> {
+        if of_tolerance(self.tolerance) == Arithmetic::DoubleDouble {
+            let row = first_return::<DoubleDouble>(self.k, p_theta, BEYOND * t, self.tolerance)?;
+            return Ok(Row { double_double: true, ..row });
+        }
         let row = first_return::<f64>(self.k, p_theta, BEYOND * t, self.tolerance)?;
         if (row.t / t - 1.0).abs() <= TENTH * self.allowed {
             return Ok(row);

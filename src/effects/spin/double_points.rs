@@ -6,13 +6,17 @@
 //!
 //! The table is that of a conjugate locus with two rows for each double point, so that the second route applies to it unchanged.
 
-use super::branch::{BranchPoint, conjugate_point, sample};
+use super::branch::{BranchPoint, conjugate_point, conjugate_point_in, sample_in};
 use super::chart::{distance, wrapped};
 use super::momenta::Momenta;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::effects::product::{failed, product};
 use crate::geometry::spin::conjugate::ConjugatePoint;
+use crate::geometry::spin::place::first_conjugate_place;
+use crate::numerics::double_double::DoubleDouble;
+use crate::numerics::real::Real;
 use crate::table::Table;
 use serde::Serialize;
 use std::f64::consts::FRAC_PI_2;
@@ -36,6 +40,8 @@ pub const KIND: Kind = Kind {
 
 /// Newton steps after which a crossing is given up; four are usual.
 const MOST_STEPS: u32 = 40;
+/// Steps in double-double: from some thirteen digits, eight more each.
+const LONG_STEPS: u32 = 3;
 /// The largest Newton step in `ln p_θ`.
 const LARGEST_STEP: f64 = 0.3;
 /// A residual that can only be a double point's.
@@ -103,6 +109,37 @@ impl Polish {
         Ok((wrapped(after.theta - before.theta) * half, (after.phi - before.phi) * half))
     }
 
+    /// A double point polished in double-double, its momenta rounded. The derivatives are those of `f64`: good to some eight digits, so that
+    /// each step gains as many.
+    fn long(&mut self, found: DoublePoint) -> Result<DoublePoint, NodeError> {
+        let (wide, k) = (DoubleDouble::from, DoubleDouble::from(self.k));
+        let mut p = found.p_theta.map(|(p, _)| wide(p));
+        let slopes = [self.slope(libm::log(found.p_theta[0].0))?, self.slope(libm::log(found.p_theta[1].0))?];
+        let ((ax, ay), (bx, by)) = (slopes[0], slopes[1]);
+        let cross = ax * by - ay * bx;
+        for _ in 0..LONG_STEPS {
+            let mut place = |p: DoubleDouble| {
+                self.work.roots_solved += 1;
+                first_conjugate_place(k, p).map_err(failed(&format!("k = {:?}, p_theta = {:?}", self.k, p.to_f64())))
+            };
+            let (a, b) = (place(p[0])?, place(p[1])?);
+            let turn = DoubleDouble::PI * wide(2.0);
+            let x = b.theta - a.theta;
+            let x = x - turn * wide((x.to_f64() / turn.to_f64()).round());
+            let y = b.phi - a.phi;
+            p[0] += p[0] * (x * wide(by) - y * wide(bx)) / wide(cross);
+            p[1] += p[1] * (x * wide(ay) - y * wide(ax)) / wide(cross);
+        }
+        let p_theta = p.map(|p| (p.to_f64(), 0.5 * f64::EPSILON));
+        let points = [0, 1].map(|i| conjugate_point_in(Arithmetic::DoubleDouble, self.k, p_theta[i].0));
+        let [p, q] = points;
+        let points = [p?, q?];
+        // What rounding of the momenta leaves, along either arc.
+        let along = libm::hypot(ax, ay).max(libm::hypot(bx, by));
+        let residual = distance(points[0].r, points[1].r);
+        Ok(DoublePoint { p_theta, points, residual, error: 2.0 * f64::EPSILON * (1.0 + along), ..found })
+    }
+
     fn newton(&mut self, mut a: f64, mut b: f64) -> Result<DoublePoint, NodeError> {
         let mut best: Option<(f64, DoublePoint)> = None;
         for _ in 0..MOST_STEPS {
@@ -151,6 +188,14 @@ impl Polish {
 /// # Errors
 /// A crossing of the polygon that is none of the curve.
 pub fn find(k: f64, branch: &[BranchPoint]) -> Result<(Vec<DoublePoint>, Work), NodeError> {
+    find_in(Arithmetic::F64, k, branch)
+}
+
+/// The same in an arithmetic: found in `f64`, polished once more in the other, and the momenta rounded.
+///
+/// # Errors
+/// As [`find`].
+pub fn find_in(arithmetic: Arithmetic, k: f64, branch: &[BranchPoint]) -> Result<(Vec<DoublePoint>, Work), NodeError> {
     let away = |row: &&BranchPoint| distance(row.point.r, branch[0].point.r) > AT_CUSP;
     let rows: Vec<&BranchPoint> = branch.iter().skip_while(|row| !away(row)).collect();
     let mut chart: Vec<(f64, f64)> = rows.iter().map(|row| (row.theta, row.point.phi)).collect();
@@ -165,6 +210,9 @@ pub fn find(k: f64, branch: &[BranchPoint]) -> Result<(Vec<DoublePoint>, Work), 
             let Some((s, t)) = crossing([chart[i], chart[i + 1]], [chart[j], chart[j + 1]]) else { continue };
             let between = |at: usize, share: f64| logs[at] + share * (logs[at + 1] - logs[at]);
             let mut double = polish.newton(between(i, s), between(j, t))?;
+            if arithmetic == Arithmetic::DoubleDouble {
+                double = polish.long(double)?;
+            }
             let inside = i + 1..=j.min(rows.len() - 1);
             let mut last = double.points[0].r;
             for row in &rows[inside] {
@@ -183,9 +231,17 @@ impl Compute for DoublePoints {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let (branch, work) = sample(self.k, &self.p_theta)?;
-        let (found, polishing) = find(self.k, &branch)?;
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        let (branch, work) = sample_in(arithmetic, self.k, &self.p_theta)?;
+        let (found, polishing) = find_in(arithmetic, self.k, &branch)?;
         let rows: Vec<(usize, &DoublePoint, usize)> =
             found.iter().enumerate().flat_map(|(i, double)| [(i, double, 0), (i, double, 1)]).collect();
         let number = |of: fn(&DoublePoint, usize) -> f64| -> Vec<f64> {
@@ -230,6 +286,7 @@ impl Compute for DoublePoints {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effects::spin::branch::sample;
 
     const MOMENTA: Momenta = Momenta { from: 1e-9, to: 1e4, step: 0.1 };
 

@@ -7,16 +7,19 @@
 //! Each is integrated once and read off the steps' own polynomials, as densely as the chart (θ, φ) needs; in double-double where
 //! rounding in f64 would show ([`super::branch::rounding`]). Every point is compared with the closed form.
 
-use super::branch::{BranchPoint, conjugate_point, rounding, slopes};
+use super::branch::{BranchPoint, conjugate_point_in, rounding, slopes};
 use super::by_integration::DOUBLE_DOUBLE_TOLERANCE;
 use super::chart::{Place, coarse, continuous, distance, extend};
 use super::starts::Starts;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::of_tolerance;
 use crate::effects::counted::integrated;
 use crate::effects::product::{failed, product};
 use crate::geometry::spin::conjugate::position;
 use crate::geometry::spin::lift::SpinLift;
+use crate::geometry::spin::reference::position_to_reference;
 use crate::geometry::spin::start::Start;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
@@ -38,6 +41,7 @@ pub const KIND: Kind = Kind {
         "effects/spin/momenta.rs",
         "effects/spin/starts.rs",
         "effects/counted.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/spin",
         "numerics",
@@ -46,7 +50,7 @@ pub const KIND: Kind = Kind {
     measurement: false,
 };
 
-/// Error of a drawn point from which on f64 is not enough.
+/// Error of a drawn point from which on f64 is not enough, unless a larger one was asked for.
 const SHOWS: f64 = 1e-11;
 /// Time between samples before any halving.
 const INTERVAL: f64 = 0.5;
@@ -62,7 +66,7 @@ pub struct Geodesics {
     pub count: u32,
     /// Largest distance of neighbouring points, radians.
     pub step: f64,
-    /// Relative error per step of the integration in f64.
+    /// Relative error per step of the integration; below the ε of f64 in double-double.
     pub tolerance: f64,
 }
 
@@ -144,9 +148,11 @@ fn trajectory<S: Real>(
 
 impl Geodesics {
     fn one(&self, p_theta: f64, slope: f64) -> Result<Trajectory, NodeError> {
-        let t1 = conjugate_point(self.k, p_theta)?.t1;
-        let double_double = rounding(p_theta, slope) * t1 > SHOWS;
-        let (samples, work) = if double_double {
+        let arithmetic = of_tolerance(self.tolerance);
+        let t1 = conjugate_point_in(arithmetic, self.k, p_theta)?.t1;
+        let (samples, work) = if arithmetic == Arithmetic::DoubleDouble {
+            trajectory::<DoubleDouble>(self.k, p_theta, t1, self.step, self.tolerance)?
+        } else if rounding(p_theta, slope) * t1 > SHOWS.max(self.tolerance) {
             trajectory::<DoubleDouble>(self.k, p_theta, t1, self.step, DOUBLE_DOUBLE_TOLERANCE)?
         } else {
             trajectory::<f64>(self.k, p_theta, t1, self.step, self.tolerance)?
@@ -155,7 +161,13 @@ impl Geodesics {
         let start = Start::new(self.k, p_theta).map_err(failed(&doing))?;
         let difference = samples
             .iter()
-            .map(|(t, place)| Ok(distance(position(&start, *t).map_err(failed(&doing))?, place.r)))
+            .map(|(t, place)| {
+                let exact = match arithmetic {
+                    Arithmetic::F64 => position(&start, *t),
+                    Arithmetic::DoubleDouble => position_to_reference(&start, *t),
+                };
+                Ok(distance(exact.map_err(failed(&doing))?, place.r))
+            })
             .collect::<Result<Vec<f64>, NodeError>>()?;
         Ok(Trajectory {
             t: samples.iter().map(|(t, _)| *t).collect(),

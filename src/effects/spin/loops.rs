@@ -2,9 +2,10 @@
 //!
 //! One row for each k; a branch is sampled and searched as in [`super::double_points`]. Angles in radians, lengths on the unit sphere.
 
-use super::branch::sample;
-use super::double_points::find;
+use super::branch::sample_in;
+use super::double_points::find_in;
 use super::momenta::Momenta;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::effects::product::{failed, product};
@@ -48,9 +49,9 @@ struct Row {
 }
 
 impl Loops {
-    fn row(&self, k: f64) -> Result<Row, NodeError> {
-        let (branch, work) = sample(k, &self.p_theta)?;
-        let (found, polishing) = find(k, &branch)?;
+    fn row(&self, arithmetic: Arithmetic, k: f64) -> Result<Row, NodeError> {
+        let (branch, work) = sample_in(arithmetic, k, &self.p_theta)?;
+        let (found, polishing) = find_in(arithmetic, k, &branch)?;
         let thetas = || branch.iter().map(|row| row.theta);
         Ok(Row {
             theta: (thetas().fold(f64::INFINITY, f64::min), thetas().fold(f64::NEG_INFINITY, f64::max)),
@@ -68,8 +69,16 @@ impl Compute for Loops {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let rows = self.k.par_iter().map(|k| self.row(*k)).collect::<Result<Vec<Row>, NodeError>>()?;
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
+        let rows = self.k.par_iter().map(|k| self.row(arithmetic, *k)).collect::<Result<Vec<Row>, NodeError>>()?;
         let work = rows.iter().map(|row| row.work).sum();
         let number = |of: fn(&Row) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
         let table = Table::builder("spin-loops", "the branch p_φ(0) = −2, p_θ(0) ≥ 0 over k")

@@ -3,9 +3,9 @@
 //! One parameter for the conjugate locus, the cut locus and the geodesics, so that a scene which asks for the very branch of a figure asks
 //! for the figure's node. `p_φ(0) = −2`, `p_θ ≥ 0`; the other branches are mirror images.
 
-use super::branch::{BranchPoint, conjugate_point, sample};
-use super::chart::continuous;
+use super::branch::{BranchPoint, branch_of, sample_in};
 use super::momenta::Momenta;
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::NodeError;
 use crate::contract::work::Work;
 use serde::Serialize;
@@ -32,17 +32,18 @@ impl Starts {
     /// # Errors
     /// k or `p_θ` outside the domain; no start; a branch whose `from` leaves a gap.
     pub fn branch(&self, k: f64) -> Result<(Vec<BranchPoint>, Work), NodeError> {
-        let listed = match self {
-            Self::Branch(momenta) => return sample(k, momenta),
-            Self::Listed(listed) => ascending(k, listed)?,
-        };
-        let points = listed.iter().map(|p| conjugate_point(k, *p)).collect::<Result<Vec<_>, NodeError>>()?;
-        let elliptic_calls = points.iter().map(|point| u64::from(point.elliptic_calls)).sum();
-        let work = Work { roots_solved: points.len() as u64, elliptic_calls, ..Work::default() };
-        let mut theta = continuous(points.iter().rev().map(|point| point.theta));
-        theta.reverse();
-        let branch = listed.iter().zip(points).zip(theta);
-        Ok((branch.map(|((p_theta, point), theta)| BranchPoint { p_theta: *p_theta, theta, point }).collect(), work))
+        self.branch_in(Arithmetic::F64, k)
+    }
+
+    /// The same in an arithmetic, rounded. Where samples stand is decided in `f64`.
+    ///
+    /// # Errors
+    /// As [`Starts::branch`].
+    pub fn branch_in(&self, arithmetic: Arithmetic, k: f64) -> Result<(Vec<BranchPoint>, Work), NodeError> {
+        match self {
+            Self::Branch(momenta) => sample_in(arithmetic, k, momenta),
+            Self::Listed(listed) => branch_of(arithmetic, k, ascending(k, listed)?),
+        }
     }
 }
 

@@ -10,12 +10,15 @@
 //! of it lies that near to the equator, between the last row and the start.
 
 use super::chart::{Place, coarse, continuous, extend, far};
+use crate::contract::accuracy::Arithmetic;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::effects::product::{failed, product};
 use crate::geometry::spin::conjugate::position;
+use crate::geometry::spin::reference::position_to_reference;
 use crate::geometry::spin::start::Start;
 use crate::table::Table;
+use rayon::prelude::*;
 use serde::Serialize;
 use std::f64::consts::PI;
 
@@ -112,14 +115,32 @@ impl Compute for WaveFront {
         &KIND
     }
 
-    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
+    fn heeds_arithmetic(&self) -> bool {
+        true
+    }
+
+    fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
+        self.run_in(Arithmetic::F64, inputs)
+    }
+
+    fn run_in(&self, arithmetic: Arithmetic, _: &Inputs) -> Result<Product, NodeError> {
         let Self { k, t, step } = *self;
         if !(t > 0.0 && t.is_finite() && step > 0.0 && step <= 1.0 && k > 0.0) {
             return Err(NodeError::new(format!(
                 "k = {k:?}, t = {t:?}, step = {step:?}: above 0, step up to 1 are needed"
             )));
         }
-        let (rows, computed) = self.rows()?;
+        let (mut rows, mut computed) = self.rows()?;
+        if arithmetic == Arithmetic::DoubleDouble {
+            let place = |(p_theta, _): &(f64, Place)| {
+                let doing = || format!("k = {k:?}, p_theta = {p_theta:?}, t = {t:?}");
+                let start = Start::new(k, *p_theta).map_err(failed(&doing()))?;
+                let r = position_to_reference(&start, t).map_err(failed(&doing()))?;
+                Ok((*p_theta, Place::of(r)))
+            };
+            rows = rows.par_iter().map(place).collect::<Result<Vec<_>, NodeError>>()?;
+            computed += rows.len() as u64;
+        }
         let mut theta = continuous(rows.iter().rev().map(|(_, place)| place.theta));
         theta.reverse();
         let column = |of: fn(&Place) -> f64| rows.iter().map(|(_, place)| of(place)).collect::<Vec<f64>>();

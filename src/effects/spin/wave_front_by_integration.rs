@@ -5,9 +5,10 @@
 
 use super::by_integration::{DOUBLE_DOUBLE_TOLERANCE, allowed, tolerance};
 use super::chart::distance;
-use crate::contract::accuracy::Accuracy;
+use crate::contract::accuracy::{Accuracy, Arithmetic};
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
+use crate::effects::arithmetic::of_tolerance;
 use crate::effects::counted::integrated;
 use crate::effects::product::{failed, input_table, product};
 use crate::geometry::spin::lift::trajectory;
@@ -29,7 +30,7 @@ pub struct WaveFrontByIntegration {
     pub k: f64,
     /// The time.
     pub t: f64,
-    /// Relative error per step in f64.
+    /// Relative error per step; below the ε of f64 in double-double.
     pub tolerance: f64,
     /// Largest distance in R³ that is allowed.
     pub allowed: f64,
@@ -53,6 +54,7 @@ pub const KIND: Kind = Kind {
         "effects/spin/chart.rs",
         "effects/spin/momenta.rs",
         "effects/counted.rs",
+        "effects/arithmetic.rs",
         "effects/product.rs",
         "geometry/spin",
         "numerics",
@@ -77,6 +79,10 @@ impl WaveFrontByIntegration {
     }
 
     fn row(&self, p_theta: f64, r: [f64; 3]) -> Result<Row, NodeError> {
+        if of_tolerance(self.tolerance) == Arithmetic::DoubleDouble {
+            let row = self.point::<DoubleDouble>(p_theta, r, self.tolerance)?;
+            return Ok(Row { double_double: true, ..row });
+        }
         let row = self.point::<f64>(p_theta, r, self.tolerance)?;
         if row.distance <= TENTH * self.allowed {
             return Ok(row);

@@ -102,6 +102,7 @@ impl RotationGroup {
     /// # Errors
     /// Parameters that can't be written as a manifest.
     pub fn nodes(&self, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(self.accuracy);
         let (tolerance, allowed) = (tolerance(self.accuracy), allowed(self.accuracy));
         let body = self.inertia.into();
         let mut origins = Inertia::origins("rotation-group");

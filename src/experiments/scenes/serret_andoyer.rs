@@ -117,6 +117,7 @@ impl SerretAndoyer {
     /// # Errors
     /// Parameters that can't be written as a manifest.
     pub fn nodes(&self, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(self.accuracy);
         let body = self.metric.serret_andoyer.into();
         let metric = Inertia::origins("serret-andoyer");
         let family = ("p_theta", "scene.start.p_theta".to_owned());

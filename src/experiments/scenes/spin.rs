@@ -118,6 +118,7 @@ impl Spin {
     /// # Errors
     /// Parameters that can't be written as a manifest.
     pub fn nodes(&self, nodes: &mut Nodes) -> Result<(), NodeError> {
+        nodes.at(self.accuracy);
         let Self { starts: p_theta, accuracy, trajectories: (count, step), .. } = self;
         let from = ["from", "to", "step"].map(|leaf| (leaf, format!("scene.start.p_theta.{leaf}")));
         let [first, last, apart] = from;

@@ -34,6 +34,7 @@ pub mod lift_lanes;
 pub mod limits;
 pub mod pendulum;
 pub mod phase;
+pub mod place;
 mod posed;
 pub mod reference;
 pub mod self_intersection;

@@ -15,9 +15,10 @@
 //! then polished. Not known here: a proof that α and Θ(λ = nπ) are monotone in `k`; two changes of the same index
 //! inside one scan step, if there were such, would be missed.
 
-use super::conjugate::extremal;
+use super::extremal::Extremal;
 use super::solve::{Quantity, SpinError, solve};
 use super::start::Start;
+use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
 
 /// Steps in which a range of `k` is scanned. The switches are at least 0.08 apart for `k < 1.5`.
@@ -26,6 +27,10 @@ const SCAN_STEPS: u32 = 64;
 const MOST_STEPS: u32 = 100;
 /// Relative step of the difference quotient that turns an error of a function into one of `k`.
 const SLOPE_STEP: f64 = 1e-6;
+/// The same in double-double.
+const SLOPE_STEP_LONG: f64 = 1e-10;
+/// Steps of the polishing in double-double: from some fifteen digits, ten more each.
+const LONG_STEPS: u32 = 2;
 
 /// What the first conjugate point passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -91,45 +96,91 @@ pub fn switch_points(passage: Passage, p_theta: f64, k_low: f64, k_high: f64) ->
 
 /// The number of switches passed by the conjugate point: the largest index whose function is not negative.
 fn whole_turns(passage: Passage, k: f64, p_theta: f64) -> Result<u32, SpinError> {
+    let start = Start::new(k, p_theta)?;
     let alpha = match passage {
         Passage::Pole => pole_angle(k, p_theta)?.value / f64::PI + 0.5,
-        Passage::Equator => {
-            let point = super::conjugate::first_conjugate_point(&Start::new(k, p_theta)?)?;
-            return Ok(point.crossings);
-        }
+        Passage::Equator => return Ok(super::conjugate::first_conjugate_point(&start)?.crossings),
     };
     // α = (n + ½)π is switch n.
     Ok((alpha - 1.0).floor().max(0.0) as u32)
 }
 
 /// A function of `k`, how well it is known, and the time it belongs to.
-struct Sample {
-    value: f64,
-    rounding: f64,
-    t: f64,
+struct Sample<S> {
+    value: S,
+    rounding: S,
+    t: S,
 }
 
 /// `α = λ + arg(h3 + i h1h2/G)` at the first conjugate point.
-fn pole_angle(k: f64, p_theta: f64) -> Result<Sample, SpinError> {
-    let extremal = extremal(&Start::new(k, p_theta)?);
-    let root = solve(&extremal, Quantity::Phase, 1.0)?;
+fn pole_angle<S: Real>(k: S, p_theta: S) -> Result<Sample<S>, SpinError> {
+    let extremal = Extremal::new(k, p_theta.abs());
+    let root = solve(&extremal, Quantity::Phase, S::ONE)?;
+    let (zero, one, two, half_turn) = (S::ZERO, S::ONE, S::from_f64(2.0), S::from_f64(0.5));
     // Rotating: β has made half_turns half turns, and so has the argument, backwards.
-    let half = Real::floor(root.half_turns / 2.0);
-    let sign = if root.half_turns - 2.0 * half > 0.5 && root.chi_turns == 0.0 { -1.0 } else { 1.0 };
-    let turned = if root.chi_turns == 0.0 { -root.half_turns } else { 0.0 };
-    let across = -2.0 * k * k * root.sin_beta * (root.beta_rate / extremal.casimir);
-    let argument = libm::atan2(sign * across, sign * root.cos_beta);
-    let value = (1.0 + root.chi_turns + turned) * f64::PI + root.chi_rest + argument;
-    let lambda_rate = extremal.casimir / (2.0 * extremal.ellipse(root.sin_beta, root.cos_beta));
-    Ok(Sample { value, rounding: lambda_rate * root.t * root.error + 4.0 * f64::EPSILON * value.abs(), t: root.t })
+    let half = (root.half_turns / two).floor();
+    let sign = if root.half_turns - two * half > half_turn && root.chi_turns == zero { -one } else { one };
+    let turned = if root.chi_turns == zero { -root.half_turns } else { zero };
+    let across = -(two * k * k * root.sin_beta) * (root.beta_rate / extremal.casimir);
+    let argument = (sign * across).atan2(sign * root.cos_beta);
+    let value = (one + root.chi_turns + turned) * S::PI + root.chi_rest + argument;
+    let lambda_rate = extremal.casimir / (two * extremal.ellipse(root.sin_beta, root.cos_beta));
+    let rounding = lambda_rate * root.t * root.error + S::from_f64(4.0) * S::EPSILON * value.abs();
+    Ok(Sample { value, rounding, t: root.t })
 }
 
 /// `π − Θ` at the n-th return to the equator: positive once the conjugate point has passed it.
-fn equator_lag(k: f64, p_theta: f64, index: u32) -> Result<Sample, SpinError> {
-    let extremal = extremal(&Start::new(k, p_theta)?);
-    let root = solve(&extremal, Quantity::Lambda, f64::from(index))?;
-    let value = (root.chi_turns + 1.0 - f64::from(index)) * f64::PI + root.chi_rest;
-    Ok(Sample { value, rounding: 8.0 * f64::EPSILON * (1.0 + root.chi_rest.abs()), t: root.t })
+fn equator_lag<S: Real>(k: S, p_theta: S, index: u32) -> Result<Sample<S>, SpinError> {
+    let extremal = Extremal::new(k, p_theta.abs());
+    let index = S::from_f64(f64::from(index));
+    let root = solve(&extremal, Quantity::Lambda, index)?;
+    let value = (root.chi_turns + S::ONE - index) * S::PI + root.chi_rest;
+    Ok(Sample { value, rounding: S::from_f64(8.0) * S::EPSILON * (S::ONE + root.chi_rest.abs()), t: root.t })
+}
+
+/// The function of `k` whose root is the switch.
+fn switch_function<S: Real>(passage: Passage, index: u32, k: S, p_theta: S) -> Result<Sample<S>, SpinError> {
+    match passage {
+        Passage::Pole => {
+            let sample = pole_angle(k, p_theta)?;
+            Ok(Sample { value: sample.value - S::from_f64(f64::from(index) + 0.5) * S::PI, ..sample })
+        }
+        Passage::Equator => equator_lag(k, p_theta, index),
+    }
+}
+
+/// The same switches, polished in double-double and rounded: `k` to half a unit in the last place.
+///
+/// Newton's method from the `f64` answer, with difference quotients good to some ten digits: each step gains as many.
+///
+/// Domain and errors as for [`switch_points`].
+pub fn switch_points_to_reference(
+    passage: Passage,
+    p_theta: f64,
+    k_low: f64,
+    k_high: f64,
+) -> Result<Vec<SwitchPoint>, SpinError> {
+    let found = switch_points(passage, p_theta, k_low, k_high)?;
+    found.into_iter().map(|switch| polish_long(&switch, p_theta)).collect()
+}
+
+fn polish_long(switch: &SwitchPoint, p_theta: f64) -> Result<SwitchPoint, SpinError> {
+    let (mut k, p) = (DoubleDouble::from(switch.k), DoubleDouble::from(p_theta));
+    let function = |k: DoubleDouble| switch_function(switch.passage, switch.index, k, p);
+    let step = k * DoubleDouble::from(SLOPE_STEP_LONG);
+    let slope = (function(k + step)?.value - function(k - step)?.value) / (step + step);
+    let mut t1 = DoubleDouble::ZERO;
+    for _ in 0..LONG_STEPS {
+        let sample = function(k)?;
+        (k, t1) = (k - sample.value / slope, sample.t);
+    }
+    Ok(SwitchPoint {
+        k: k.to_f64(),
+        error: 0.5 * f64::EPSILON * k.to_f64(),
+        t1: t1.to_f64(),
+        solutions: switch.solutions + 2 + LONG_STEPS,
+        ..*switch
+    })
 }
 
 fn polish(
@@ -140,15 +191,10 @@ fn polish(
     scanned: u32,
 ) -> Result<SwitchPoint, SpinError> {
     let mut solutions = scanned;
-    let mut function = |k: f64| -> Result<Sample, SpinError> {
+    let mut function = |k: f64| -> Result<Sample<f64>, SpinError> {
         solutions += 1;
-        match passage {
-            Passage::Pole => {
-                let sample = pole_angle(k, p_theta)?;
-                Ok(Sample { value: sample.value - (f64::from(index) + 0.5) * f64::PI, ..sample })
-            }
-            Passage::Equator => equator_lag(k, p_theta, index),
-        }
+        Start::new(k, p_theta)?;
+        switch_function(passage, index, k, p_theta)
     };
     let (mut a, mut b) = bracket;
     let (mut fa, mut fb) = (function(a)?.value, function(b)?.value);
@@ -212,6 +258,17 @@ mod tests {
         (Passage::Equator, 2, 0.3, 1.173865356684086375726, 6.2815865378660723245),
         (Passage::Equator, 3, 0.3, 1.364068943634060879113, 9.4237387576476601059),
     ];
+
+    /// The reference is rounded: half a unit in the last place of what has 22 digits and more.
+    #[test]
+    fn switches_to_reference_against_the_same() {
+        for (passage, index, p, k, t1) in SWITCHES {
+            let found = switch_points_to_reference(passage, p, 1.0, 1.5).unwrap();
+            let here = found.iter().find(|switch| switch.index == index).unwrap();
+            assert_eq!(here.k, k, "{passage:?} {index} {p}");
+            assert!((here.t1 / t1 - 1.0).abs() <= f64::EPSILON, "{passage:?} {index} {p}: {} {t1}", here.t1);
+        }
+    }
 
     #[test]
     fn switches_against_integration_at_300_bits() {

@@ -1,0 +1,143 @@
+//! How far the numbers of one run are from those of another: named values, and tables row by row.
+//!
+//! Tables are compared where they match row by row: as many rows, the same columns, the same integers, booleans and texts. Where samples are placed by what
+//! was computed, rows may differ: then the table is told as not comparable, never forced. Columns that hold errors and differences are left
+//! out: they say how far results are off, and are no results ([`NO_RESULTS`]).
+//!
+//! A difference is absolute in its column's unit, and relative to the largest number of the reference's column: a coordinate near zero is not wrong by its own size.
+
+use crate::contract::value::NamedValue;
+use crate::table::{Data, Table};
+
+/// What the names of columns and values contain that are no results.
+pub const NO_RESULTS: [&str; 8] =
+    ["error", "difference", "allowed", "residual", "distance", "gap", "round_trip", "curvature_by_differences_at_zero"];
+
+/// The largest difference, and where it is.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Largest {
+    /// How large.
+    pub size: f64,
+    /// Where: a value's name, a table's and a column's.
+    pub place: String,
+}
+
+impl Largest {
+    fn take(&mut self, size: f64, place: impl FnOnce() -> String) {
+        // NaN counts as a difference.
+        if size > self.size || size.is_nan() {
+            (self.size, self.place) = (size, place());
+        }
+    }
+}
+
+/// Differences of two runs.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Differences {
+    /// Of named values, relative (absolute where the reference is zero).
+    pub values: Largest,
+    /// How many named values were compared.
+    pub values_compared: usize,
+    /// Of tables, absolute in the column's unit.
+    pub absolute: Largest,
+    /// Of tables, relative to the largest number of the column.
+    pub relative: Largest,
+    /// How many tables matched row by row.
+    pub tables_compared: usize,
+    /// The tables that did not.
+    pub not_comparable: Vec<String>,
+}
+
+fn is_result(name: &str) -> bool {
+    !NO_RESULTS.iter().any(|part| name.contains(part))
+}
+
+impl Differences {
+    /// Adds the named values of one experiment.
+    pub fn add_values(&mut self, experiment: &str, ours: &[NamedValue], reference: &[NamedValue]) {
+        for value in reference.iter().filter(|value| is_result(&value.name)) {
+            let Some(own) = ours.iter().find(|own| own.name == value.name) else { continue };
+            let scale = if value.value == 0.0 { 1.0 } else { value.value.abs() };
+            let size = (own.value - value.value).abs() / scale;
+            self.values.take(size, || format!("{experiment}/{}", value.name));
+            self.values_compared += 1;
+        }
+    }
+
+    /// Adds a table, by its name.
+    pub fn add_table(&mut self, name: &str, ours: &Table, reference: &Table) {
+        if !matches(ours, reference) {
+            self.not_comparable.push(name.to_owned());
+            return;
+        }
+        self.tables_compared += 1;
+        for (own, other) in ours.columns().iter().zip(reference.columns()).filter(|(own, _)| is_result(&own.name)) {
+            let (Data::F64(own_numbers), Data::F64(numbers)) = (&own.data, &other.data) else { continue };
+            let scale = numbers.iter().filter(|x| x.is_finite()).fold(0.0_f64, |scale, x| scale.max(x.abs()));
+            for (x, y) in own_numbers.iter().zip(numbers).filter(|(x, y)| !(x.is_nan() && y.is_nan())) {
+                let apart = (x - y).abs();
+                let place = || format!("{name}: {}", own.name);
+                self.absolute.take(apart, place);
+                self.relative.take(if apart > 0.0 { apart / scale } else { 0.0 }, place);
+            }
+        }
+    }
+}
+
+/// Whether two tables match row by row.
+fn matches(ours: &Table, reference: &Table) -> bool {
+    ours.rows() == reference.rows()
+        && ours.columns().len() == reference.columns().len()
+        && ours.columns().iter().zip(reference.columns()).all(|(own, other)| {
+            own.name == other.name
+                && match (&own.data, &other.data) {
+                    (Data::F64(_), Data::F64(_)) => true,
+                    // How a row was computed is no part of which row it is.
+                    (Data::Bool(_), Data::Bool(_)) => true,
+                    (own, other) => own == other,
+                }
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(t: Vec<f64>, error: Vec<f64>, rows: Vec<i64>) -> Table {
+        Table::builder("points", "test")
+            .column("index", "1", "which", rows)
+            .column("t", "time", "time", t)
+            .column("error", "1", "bound", error)
+            .build()
+            .unwrap()
+    }
+
+    #[test]
+    fn tables_that_match_are_compared_and_others_are_told() {
+        let reference = table(vec![2.0, 4.0], vec![1.0, 1.0], vec![0, 1]);
+        let mut differences = Differences::default();
+        differences.add_table("a", &table(vec![2.0, 4.5], vec![0.0, 9.0], vec![0, 1]), &reference);
+        assert_eq!((differences.absolute.size, differences.relative.size), (0.5, 0.125));
+        assert_eq!((differences.relative.place.as_str(), differences.tables_compared), ("a: t", 1));
+        differences.add_table("b", &table(vec![2.0, 4.0], vec![1.0, 1.0], vec![0, 2]), &reference);
+        differences.add_table("c", &table(vec![2.0], vec![1.0], vec![0]), &reference);
+        assert_eq!(differences.not_comparable, ["b", "c"]);
+    }
+
+    #[test]
+    fn values_are_compared_by_name() {
+        let value = |name: &str, value| NamedValue {
+            name: name.to_owned(),
+            value,
+            unit: String::new(),
+            meaning: String::new(),
+            route: String::new(),
+            error: 0.0,
+        };
+        let mut differences = Differences::default();
+        let reference = [value("k1", 2.0), value("largest_route_difference", 1e-15), value("none", 1.0)];
+        differences.add_values("fig4", &[value("k1", 2.5), value("largest_route_difference", 1.0)], &reference);
+        assert_eq!((differences.values.size, differences.values_compared), (0.25, 1));
+        assert_eq!(differences.values.place, "fig4/k1");
+    }
+}

@@ -1,0 +1,463 @@
+//! `polhode accuracy`: what accuracy costs in time, for the whole article or one experiment, on this machine.
+//!
+//! The target is computed at each level from nothing, in a store of its own that is thrown away: one level after another, one node after another, the reference
+//! first. Then each level's named values, tables and pictures are compared with those of the reference ([`crate::check::difference`], [`crate::check::movement`]).
+//! Closed forms have no tolerance: at `draft` they are as good as at `article`, and what is off is what was integrated.
+//!
+//! Times are the shortest of up to [`REPEATS`] runs: of compute nodes alone, and with drawing and reading values. They are measurements: on stdout and in
+//! `OUT/measured/`, in nothing that is committed or compared.
+
+use crate::check::difference::{Differences, Largest};
+use crate::check::movement::{Movement, VISIBLE_MM, movement};
+use crate::cli::accuracy_picture::picture;
+use crate::cli::arguments::{AccuracyArguments, PlaceArguments};
+use crate::cli::collected;
+use crate::cli::console::{self, ConsoleError};
+use crate::cli::exit::Exit;
+use crate::cli::session::{Refused, Session};
+use crate::cli::workspace::Workspace;
+use crate::contract::accuracy::Accuracy;
+use crate::contract::value::Findings;
+use crate::contract::work::Work;
+use crate::effects::cost_of_effects::machine;
+use crate::experiments::definition::{FINDINGS_FILE, FINDINGS_NODE, MEASURED_FOLDER, PICTURE_NODE};
+use crate::pipeline::events::Silent;
+use crate::pipeline::report::{Report, Status};
+use crate::pipeline::run::run as run_pipeline;
+use crate::plot::render::render;
+use crate::table::Table;
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// The version of the JSON that `accuracy` prints.
+const SCHEMA: u32 = 1;
+/// The ladder of levels where none is asked for, from the least accurate.
+const LADDER: [Accuracy; 7] = [
+    Accuracy::Draft,
+    Accuracy::Asked(1e-6),
+    Accuracy::Asked(1e-8),
+    Accuracy::Asked(1e-10),
+    Accuracy::Asked(1e-12),
+    Accuracy::Article,
+    Accuracy::Reference,
+];
+/// Runs of one level at most; the shortest counts.
+const REPEATS: u32 = 3;
+/// No further run of a level is begun after this time: a figure's answer comes within a minute.
+const LONG_ENOUGH: Duration = Duration::from_secs(3);
+/// What the whole article is called among files.
+const WHOLE: &str = "article";
+
+/// What one level took and made.
+pub struct Measured {
+    /// The level.
+    pub level: Accuracy,
+    /// Seconds of the compute nodes.
+    pub compute_seconds: f64,
+    /// Seconds of all nodes.
+    pub seconds: f64,
+    /// Counted work.
+    pub work: Work,
+    /// Nodes that failed at this level, with what they say.
+    pub failed: Vec<String>,
+    /// How far the numbers are from the reference.
+    pub differences: Differences,
+    /// The picture that has moved most, and by how much.
+    pub moved: Option<(String, Movement)>,
+}
+
+/// What a run left in its output folder.
+#[derive(Default)]
+struct Outputs {
+    tables: BTreeMap<String, Table>,
+    findings: BTreeMap<String, Findings>,
+    pictures: BTreeMap<String, String>,
+}
+
+/// Runs the verb.
+///
+/// # Errors
+/// Standard output that can't be written.
+pub fn run(arguments: &AccuracyArguments) -> Result<Exit, ConsoleError> {
+    match answered(arguments) {
+        Ok((text, exit)) => {
+            console::data(&text)?;
+            Ok(exit)
+        }
+        Err(refused) => Ok(refused.tell()),
+    }
+}
+
+fn answered(arguments: &AccuracyArguments) -> Result<(String, Exit), Refused> {
+    let levels = levels(arguments)?;
+    let target = arguments.target.clone();
+    let name = target.as_deref().map_or(WHOLE.to_owned(), |target| {
+        Path::new(target).file_stem().map_or(target.to_owned(), |stem| stem.to_string_lossy().into_owned())
+    });
+    let mut reference = None;
+    let mut measured = Vec::new();
+    // The reference first: the others are compared with it as they come.
+    for level in std::iter::once(Accuracy::Reference).chain(levels) {
+        if !arguments.no_progress {
+            console::message(&format!("{name} at {level} …"));
+        }
+        let (mut found, outputs) = measure(arguments, level)?;
+        if reference.is_none() {
+            reference = Some(outputs);
+        } else if let Some(reference) = &reference {
+            compare(&mut found, &outputs, reference);
+        }
+        if !arguments.no_progress {
+            console::message(&format!("{name} at {level}: {}", time(found.compute_seconds)));
+        }
+        measured.push(found);
+    }
+    measured.rotate_left(1);
+    let exit = if measured.iter().any(|found| !found.failed.is_empty()) { Exit::NodeFailed } else { Exit::Success };
+    let machine = machine::describe();
+    let file = written(arguments, &name, &measured, &machine)?;
+    let text = if arguments.json {
+        format!("{:#}\n", as_json(&name, &measured, &machine))
+    } else {
+        format!("{}\nplot: {}\n", as_text(&name, &measured, &machine), file.display())
+    };
+    Ok((text, exit))
+}
+
+/// The levels asked for, from the least accurate, without the reference.
+fn levels(arguments: &AccuracyArguments) -> Result<Vec<Accuracy>, Refused> {
+    let mut levels = Vec::new();
+    for text in &arguments.levels {
+        let level = text.parse::<Accuracy>();
+        levels.push(level.map_err(|error| Refused { exit: Exit::Usage, text: format!("--levels: {error}") })?);
+    }
+    if levels.is_empty() {
+        levels.extend(LADDER);
+    }
+    levels.retain(|level| *level != Accuracy::Reference);
+    levels.sort_by(|a, b| b.relative_error().total_cmp(&a.relative_error()));
+    levels.dedup();
+    Ok(levels)
+}
+
+/// Computes the target at a level, from nothing, as often as its time allows.
+fn measure(arguments: &AccuracyArguments, level: Accuracy) -> Result<(Measured, Outputs), Refused> {
+    let began = Instant::now();
+    let mut best: Option<(Measured, Outputs)> = None;
+    for _ in 0..REPEATS {
+        let unwritable = |error: std::io::Error| Refused {
+            exit: Exit::Store,
+            text: format!("no folder for a store of its own: {error}\n  say where: TMPDIR=DIR"),
+        };
+        let folder = tempfile::tempdir().map_err(unwritable)?;
+        let place = PlaceArguments {
+            experiments: arguments.experiments.clone(),
+            out: Some(folder.path().join("figures")),
+            store: Some(folder.path().join("store")),
+            accuracy: Some(level.to_string()),
+        };
+        let targets: Vec<String> = arguments.target.iter().cloned().collect();
+        let mut session = Session::begin(&place, &targets)?;
+        session.options.jobs = 1;
+        let report = run_pipeline(&session.graph, &session.selection, &session.store, &session.options, &mut Silent);
+        let found = taken(level, &report);
+        if best.as_ref().is_none_or(|(best, _)| found.compute_seconds < best.compute_seconds) {
+            best = Some((found, outputs_of(&report, &session.workspace.out)));
+        }
+        if began.elapsed() > LONG_ENOUGH {
+            break;
+        }
+    }
+    best.ok_or_else(|| Refused { exit: Exit::Defect, text: format!("nothing was run at {level}") })
+}
+
+/// Times and work of a run.
+fn taken(level: Accuracy, report: &Report) -> Measured {
+    let mut found = Measured {
+        level,
+        compute_seconds: 0.0,
+        seconds: 0.0,
+        work: Work::default(),
+        failed: report.failures().map(|(address, failure)| format!("{address}: {failure}")).collect(),
+        differences: Differences::default(),
+        moved: None,
+    };
+    for node in report.nodes.iter().filter(|node| node.status == Status::Ran) {
+        let seconds = node.duration.map_or(0.0, |duration| duration.as_secs_f64());
+        found.seconds += seconds;
+        let address = &node.address;
+        if address.experiment != collected::ID && ![PICTURE_NODE, FINDINGS_NODE].contains(&address.node.as_str()) {
+            found.compute_seconds += seconds;
+            found.work += node.work.unwrap_or_default();
+        }
+    }
+    found
+}
+
+fn outputs_of(report: &Report, out: &Path) -> Outputs {
+    let mut outputs = Outputs::default();
+    for export in &report.exports {
+        // What a failed node did not make is not there: it is told as failed.
+        let Ok(bytes) = std::fs::read(out.join(&export.path)) else { continue };
+        let name = export.from.to_string();
+        if export.path.ends_with(".parquet") {
+            outputs.tables.extend(Table::from_parquet(&bytes).ok().map(|table| (name, table)));
+        } else if export.path.ends_with(FINDINGS_FILE) {
+            outputs
+                .findings
+                .extend(collected::findings(&bytes).ok().map(|found| (export.from.experiment.clone(), found)));
+        } else if export.path.ends_with(".svg") {
+            outputs.pictures.extend(String::from_utf8(bytes).ok().map(|text| (export.path.clone(), text)));
+        }
+    }
+    outputs
+}
+
+fn compare(found: &mut Measured, ours: &Outputs, reference: &Outputs) {
+    for (experiment, findings) in &reference.findings {
+        let own = ours.findings.get(experiment).map_or(&[][..], |own| &own.values);
+        found.differences.add_values(experiment, own, &findings.values);
+    }
+    for (name, table) in &reference.tables {
+        match ours.tables.get(name) {
+            Some(own) => found.differences.add_table(name, own, table),
+            None => found.differences.not_comparable.push(name.clone()),
+        }
+    }
+    for (path, svg) in &reference.pictures {
+        let Some(own) = ours.pictures.get(path) else { continue };
+        let moved = movement(own, svg);
+        let more = |most: &Movement| (moved.is_visible(), moved.mm) > (most.is_visible(), most.mm);
+        if found.moved.as_ref().is_none_or(|(_, most)| more(most)) {
+            found.moved = Some((path.clone(), moved));
+        }
+    }
+}
+
+/// The least accurate level from which on no picture differs visibly from the reference's.
+fn unchanged_from(measured: &[Measured]) -> Option<Accuracy> {
+    let still = |found: &&Measured| {
+        found.level == Accuracy::Reference || found.moved.as_ref().is_some_and(|(_, moved)| !moved.is_visible())
+    };
+    measured.iter().rev().take_while(still).last().map(|found| found.level)
+}
+
+/// How many times faster the level's numbers were computed than the reference's.
+fn faster(measured: &[Measured], level: Accuracy) -> Option<f64> {
+    let seconds = |level| measured.iter().find(|found| found.level == level).map(|found| found.compute_seconds);
+    Some(seconds(Accuracy::Reference)? / seconds(level)?)
+}
+
+fn time(seconds: f64) -> String {
+    if seconds < 1.0 { format!("{:.1} ms", 1e3 * seconds) } else { format!("{seconds:.2} s") }
+}
+
+fn size(largest: &Largest) -> String {
+    if largest.size == 0.0 { "0".to_owned() } else { format!("{:.1e}", largest.size) }
+}
+
+fn as_text(name: &str, measured: &[Measured], machine: &str) -> String {
+    let mut text = format!("{name} on {machine}\n\n");
+    let mut line = |cells: [&str; 9]| {
+        let [level, rest @ ..] = cells;
+        let cells = rest.iter().map(|cell| format!("{cell:>13}")).collect::<String>();
+        let _ = writeln!(text, "{level:<10}{cells}");
+    };
+    line([
+        "level",
+        "computing",
+        "with drawing",
+        "steps",
+        "evaluations",
+        "elliptic",
+        "values off",
+        "tables off",
+        "moved (mm)",
+    ]);
+    for found in measured {
+        let Work { steps, flow_evaluations, tangent_evaluations, event_evaluations, elliptic_calls, .. } = found.work;
+        let evaluations = flow_evaluations + tangent_evaluations + event_evaluations;
+        let [values, tables, moved] = if found.level == Accuracy::Reference {
+            ["–"; 3].map(str::to_owned)
+        } else {
+            let moved = found.moved.as_ref().map_or("–".to_owned(), |(_, moved)| {
+                let lost = if moved.unmatched.is_empty() { "" } else { " +" };
+                format!("{:.3}{lost}", moved.mm)
+            });
+            [size(&found.differences.values), size(&found.differences.relative), moved]
+        };
+        line([
+            &found.level.to_string(),
+            &time(found.compute_seconds),
+            &time(found.seconds),
+            &steps.to_string(),
+            &evaluations.to_string(),
+            &elliptic_calls.to_string(),
+            &values,
+            &tables,
+            &moved,
+        ]);
+    }
+    let _ = writeln!(
+        text,
+        "\nOff: the largest difference to the reference, of named values relative, of columns of tables relative to their largest number.\n\
+         Moved: the largest distance of what is drawn from the same in the reference's picture; + where a group of marks is in one picture only.\n\
+         Closed forms have no tolerance: at every level above article they are evaluated in f64."
+    );
+    for found in measured.iter().filter(|found| found.level != Accuracy::Reference) {
+        let Differences { values, absolute, relative, not_comparable, tables_compared, .. } = &found.differences;
+        let _ = writeln!(
+            text,
+            "{}: values most in {}; tables most in {} ({} absolute in {}); {tables_compared} tables compared row by row, {} not",
+            found.level,
+            or_none(&values.place),
+            or_none(&relative.place),
+            size(absolute),
+            or_none(&absolute.place),
+            not_comparable.len()
+        );
+    }
+    for found in measured {
+        for failed in &found.failed {
+            let _ = writeln!(text, "failed at {}: {failed}", found.level);
+        }
+    }
+    for level in [Accuracy::Draft, Accuracy::Article] {
+        if let Some(times) = faster(measured, level) {
+            let _ = writeln!(
+                text,
+                "The numbers of {level} are computed {times:.1} times faster than those of the reference."
+            );
+        }
+    }
+    if let Some(level) = unchanged_from(measured) {
+        let _ = writeln!(
+            text,
+            "From {level} on, no picture changes visibly (by more than {VISIBLE_MM:.3} mm, half the thinnest line)."
+        );
+    }
+    text
+}
+
+fn or_none(place: &str) -> &str {
+    if place.is_empty() { "none" } else { place }
+}
+
+fn as_json(name: &str, measured: &[Measured], machine: &str) -> Value {
+    let largest = |found: &Largest| json!({ "largest": found.size, "place": found.place });
+    let levels: Vec<Value> = measured
+        .iter()
+        .map(|found| {
+            let Differences { values, values_compared, absolute, relative, tables_compared, not_comparable } =
+                &found.differences;
+            let picture = found.moved.as_ref().map(|(path, moved)| {
+                let Movement { mm, group, unmatched } = moved;
+                json!({ "path": path, "mm": mm, "group": group, "unmatched": unmatched, "visible": moved.is_visible() })
+            });
+            json!({
+                "level": found.level.to_string(),
+                "asked": found.level.relative_error(),
+                "arithmetic": found.level.arithmetic().name(),
+                "compute_seconds": found.compute_seconds,
+                "seconds": found.seconds,
+                "work": found.work,
+                "failed": found.failed,
+                "values": { "relative": largest(values), "compared": values_compared },
+                "tables": {
+                    "absolute": largest(absolute),
+                    "relative": largest(relative),
+                    "compared": tables_compared,
+                    "not_comparable": not_comparable,
+                },
+                "picture": picture,
+            })
+        })
+        .collect();
+    json!({
+        "schema": SCHEMA,
+        "target": name,
+        "machine": machine,
+        "visible_mm": VISIBLE_MM,
+        "levels": levels,
+        "draft_faster_than_reference": faster(measured, Accuracy::Draft),
+        "unchanged_from": unchanged_from(measured).map(|level| level.to_string()),
+    })
+}
+
+/// Writes the plot, and says where.
+fn written(
+    arguments: &AccuracyArguments,
+    name: &str,
+    measured: &[Measured],
+    machine: &str,
+) -> Result<PathBuf, Refused> {
+    let place = PlaceArguments {
+        experiments: arguments.experiments.clone(),
+        out: arguments.out.clone(),
+        ..PlaceArguments::default()
+    };
+    let folder = Workspace::find(&place)?.out.join(MEASURED_FOLDER);
+    let file = folder.join(format!("accuracy-{name}.svg"));
+    let bytes = render(&picture(name, measured, machine))
+        .map_err(|error| Refused { exit: Exit::Defect, text: format!("drawing: {error}") })?;
+    let wrote = std::fs::create_dir_all(&folder).and_then(|()| std::fs::write(&file, bytes));
+    wrote.map_err(|error| Refused {
+        exit: Exit::Usage,
+        text: format!("{} can't be written: {error}", file.display()),
+    })?;
+    Ok(file)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn found(level: Accuracy, seconds: f64, mm: f64) -> Measured {
+        let moved = Movement { mm, group: "a-geodesic".to_owned(), unmatched: Vec::new() };
+        Measured {
+            level,
+            compute_seconds: seconds,
+            seconds: 2.0 * seconds,
+            work: Work::default(),
+            failed: Vec::new(),
+            differences: Differences::default(),
+            moved: (level != Accuracy::Reference).then(|| ("fig7.svg".to_owned(), moved)),
+        }
+    }
+
+    #[test]
+    fn the_level_from_which_pictures_stand_still() {
+        let mut measured = vec![
+            found(Accuracy::Draft, 0.1, 0.5),
+            found(Accuracy::Asked(1e-8), 0.2, 0.01),
+            found(Accuracy::Article, 0.5, 0.0),
+            found(Accuracy::Reference, 2.0, 0.0),
+        ];
+        assert_eq!(unchanged_from(&measured), Some(Accuracy::Asked(1e-8)));
+        assert_eq!(faster(&measured, Accuracy::Draft), Some(20.0));
+        // A tighter level that moves again counts against the looser ones.
+        measured[2] = found(Accuracy::Article, 0.5, 0.2);
+        assert_eq!(unchanged_from(&measured), Some(Accuracy::Reference));
+        let text = as_text("fig7", &measured, "a machine");
+        assert!(text.contains("draft") && text.contains("20.0 times faster") && text.contains("0.088 mm"), "{text}");
+        let json = as_json("fig7", &measured, "a machine");
+        assert_eq!(json["levels"].as_array().map(Vec::len), Some(4));
+        assert_eq!(json["levels"][0]["picture"]["visible"], true);
+        assert_eq!(json["unchanged_from"], "reference");
+    }
+
+    #[test]
+    fn levels_run_from_the_least_accurate_and_wrong_ones_are_refused() {
+        let asked = |levels: &[&str]| {
+            let levels = levels.iter().map(|level| (*level).to_owned()).collect();
+            super::levels(&AccuracyArguments { levels, ..AccuracyArguments::default() })
+        };
+        let ladder = asked(&["article", "1e-8", "reference", "draft", "1e-8"]).ok();
+        assert_eq!(ladder, Some(vec![Accuracy::Draft, Accuracy::Asked(1e-8), Accuracy::Article]));
+        assert_eq!(asked(&[]).ok().map(|levels| levels.len()), Some(LADDER.len() - 1));
+        assert!(asked(&["best"]).is_err_and(|refused| refused.exit == Exit::Usage && refused.text.contains("best")));
+    }
+}
