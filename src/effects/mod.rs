@@ -2,6 +2,7 @@
 
 pub mod conjugate_point_versus_k;
 pub mod conjugate_point_versus_k_by_integration;
+pub mod cost_of_accuracy;
 pub mod cost_of_effects;
 pub mod counted;
 pub mod hard_cases;
