@@ -31,7 +31,7 @@ use crate::effects::cost_of_accuracy::spin::Spin;
 use crate::effects::cost_of_accuracy::timed::TimeOfAccuracy;
 use crate::effects::cost_of_effects::machine;
 use crate::plot::axis::Axis;
-use crate::plot::mark::{At, Curve, DirectLabel, Points, RuleLine, Side};
+use crate::plot::mark::{At, Curve, DirectLabel, Points, RuleLine, Side, Text};
 use crate::plot::picture::{Layout, Panel, Picture, Width};
 use crate::plot::role::{Marker, Role};
 use crate::table::{Table, Tables};
@@ -205,17 +205,18 @@ impl Definition for AccuracyCost {
         for (name, title) in PROBLEMS {
             let errors = Errors::read(tables.get(name).map_err(unread)?)?;
             apart = apart.max(errors.column("reference_difference")?.first().copied().unwrap_or_default());
-            work.push(work_panel(title, &errors)?);
-            requests.push(request_panel(title, &errors)?);
+            work.push(work_panel(title, &errors, work.is_empty()));
+            requests.push(request_panel(title, &errors, requests.is_empty())?);
         }
-        let picture = Picture::new(Width::Double, 148.0, "What accuracy costs").layout(Layout::Columns(3)).caption(format!(
+        let layout = Layout::Weighted { columns: vec![1.0; 3], rows: vec![1.35, 1.0] };
+        let picture = Picture::new(Width::Double, 160.0, "What accuracy costs").layout(layout).caption(format!(
             "First conjugate times by each method. {} Upper row: largest relative error over the starts against work per conjugate time, in \
              multiplications of f64: of series, stages, events, interpolants and roots alike, counted by running each method on numbers that \
              count; a division or a square root is one, a value of an elementary function 15, a product in double-double 9. A mark is a \
              request: relative errors of {} of methods in f64, of {} of double-double; nothing is asked of the closed form. Grey guides: \
-             error proportional to work to the power −8 (DOP853) and −9 (Verner 9(8)), and work growing with the square of the order \
-             2 + ½ ln(1/error) of the power series, which is logarithmic. Lower row: error achieved against error asked for; marks are the \
-             largest errors, dots the medians; on the grey line both are equal. Lemma 4.1: the equations in angles as printed, integrated by DOP853. \
+             error proportional to work to the power −8 (the order of DOP853) and −9 (of Verner's pair), and work proportional to the square of the order \
+             2 + ½ ln(1/error) of a power series. Lower row: error achieved over error asked for; marks are the largest errors, lines \
+             the medians. Lemma 4.1: the equations in angles as printed, integrated by DOP853. \
              The reference is the power series in double-double at its own rounding; a second route in double-double (the pendulum form; the closed \
              form; the attitude) differs from it by at most {apart:.1e}.",
             params.starts(),
@@ -410,84 +411,112 @@ impl<'t> Errors<'t> {
     }
 }
 
-/// A row of marks with a line through them.
-fn marked(panel: Panel, drawn: &Drawn, points: Vec<(f64, f64)>) -> Panel {
+/// Marks with a line through them, and their name; that of a single mark stands above it.
+fn marked(panel: Panel, drawn: &Drawn, points: Vec<(f64, f64)>, label: Option<DirectLabel>) -> Panel {
     let Drawn { role, marker, words, .. } = *drawn;
-    if points.is_empty() {
-        return panel;
+    let marks = |points| Points { marker, ..Points::new(role, points) }.legend(words);
+    match (points.len(), label) {
+        (0, _) => panel,
+        (1, Some(label)) => panel.mark(marks(points).labels([label.text]).side(Side::Above)),
+        (1, None) => panel.mark(marks(points)),
+        (_, label) => panel.mark(Curve { label, ..Curve::new(role, points.clone()) }).mark(marks(points)),
     }
-    let panel = if points.len() > 1 { panel.mark(Curve::new(role, points.clone())) } else { panel };
-    panel.mark(Points { marker, ..Points::new(role, points) }.legend(words))
 }
 
 /// The range of errors drawn: beyond the roundings of double-double, and above careless answers.
 const ERRORS: (f64, f64) = (1e-33, 1.0);
 
+/// Every eighth power of ten from `10^-(8 first)` to 1e-32.
+fn eighth_powers(first: i32) -> impl Iterator<Item = (f64, String)> {
+    let words = |power: i32| if power == 0 { "1".to_owned() } else { format!("10^{{−{power}}}") };
+    (first..=4).map(move |i| (libm::pow(10.0, f64::from(-8 * i)), words(8 * i)))
+}
+
 fn error_axis() -> Axis {
-    let ticks = (0..=4).map(|i| (libm::pow(10.0, f64::from(-8 * i)), if i == 0 { "1".to_owned() } else { format!("10^{{−{}}}", 8 * i) }));
-    Axis::new("largest relative error").log().fixed(ERRORS.0, ERRORS.1).ticks_at(ticks)
+    Axis::new("largest relative error").log().fixed(ERRORS.0, ERRORS.1).ticks_at(eighth_powers(0))
 }
 
 fn rounding() -> RuleLine {
-    let label = DirectLabel::new("*ε* of f64").at(At::End).side(Side::AboveLeft);
+    let label = DirectLabel::new("*ε* of f64").at(At::Start).side(Side::BelowRight);
     RuleLine::horizontal(Role::PoleLine, f64::EPSILON).label(label)
 }
 
-fn work_panel(title: &str, errors: &Errors<'_>) -> Result<Panel, NodeError> {
-    let x = Axis::new("multiplications").log().fixed(400.0, 4e6);
+/// The methods' marks, largest error against work; the first panel names what stands apart.
+fn work_marks(mut panel: Panel, errors: &Errors<'_>, first: bool) -> Panel {
+    for drawn in &METHODS {
+        let label = |words: &str, at: At, side: Side| Some(DirectLabel::new(words).at(at).side(side));
+        let label = match drawn.method {
+            CLOSED_FORM if first => label("closed form", At::End, Side::Above),
+            TAYLOR if first => label("power series", At::Fraction(0.3), Side::Left),
+            TAYLOR_DOUBLE_DOUBLE if first => label("double-double", At::End, Side::Left),
+            PRINTED_CHART if first => label("Lemma 4.1", At::Start, Side::AboveRight),
+            _ => None,
+        };
+        let points = errors.of(drawn.method).map(|row| (errors.work[row], errors.largest[row].max(ERRORS.0))).collect();
+        panel = marked(panel, drawn, points, label);
+    }
+    panel
+}
+
+fn work_panel(title: &str, errors: &Errors<'_>, first: bool) -> Panel {
+    let decades = (3..=7).map(|i| (libm::pow(10.0, f64::from(i)), format!("10^{i}")));
+    let x = Axis::new("multiplications per conjugate time").log().fixed(200.0, 1.3e7).ticks_at(decades);
     let mut panel = Panel::new(x, error_axis()).title(title.to_owned()).mark(rounding());
-    for (method, power, words) in [(DOP853, 8.0, "−8"), (VERNER98, 9.0, "−9")] {
-        if let Some(guide) = power_guide(errors, method, power) {
-            let label = DirectLabel::new(words).at(At::End);
+    for (beside, power, words, side) in [(2.5, 8.0, "−8", Side::AboveRight), (1.6, 9.0, "−9", Side::AboveLeft)] {
+        if let Some(guide) = power_guide(errors, beside, power) {
+            let label = DirectLabel::new(words).at(At::Start).side(side);
             panel = panel.mark(Curve::new(Role::Reference, guide).label(label));
         }
     }
     if let Some(guide) = logarithmic_guide(errors) {
-        panel = panel.mark(Curve::new(Role::Reference, guide));
+        let label = DirectLabel::new("ln^2").at(At::End).side(Side::Right);
+        panel = panel.mark(Curve::new(Role::Reference, guide).label(label));
     }
-    for drawn in &METHODS {
-        let points = errors.of(drawn.method).map(|row| (errors.work[row], errors.largest[row].max(ERRORS.0))).collect();
-        panel = marked(panel, drawn, points);
-    }
-    Ok(panel)
+    work_marks(panel, errors, first)
 }
 
-/// Error proportional to work to a power, beside a method's marks.
-fn power_guide(errors: &Errors<'_>, method: &str, power: f64) -> Option<Vec<(f64, f64)>> {
-    let rows: Vec<usize> = errors.of(method).collect();
-    let middle = *rows.get(rows.len() / 2).filter(|_| rows.len() > 2)?;
-    let through = |error: f64| (1.6 * errors.work[middle] * libm::pow(errors.largest[middle] / error, 1.0 / power), error);
-    Some([1e-4, 1e-15].map(through).to_vec())
+/// Error proportional to work to a power, over four decades, to the right of the marks of the pair of order 9.
+fn power_guide(errors: &Errors<'_>, beside: f64, power: f64) -> Option<Vec<(f64, f64)>> {
+    let from = errors.of(VERNER98).next()?;
+    let through = |decades: f64| (beside * errors.work[from] * libm::pow(10.0, decades / power), libm::pow(10.0, -2.0 - decades));
+    Some([0.0, 4.0].map(through).to_vec())
 }
 
-/// Work growing with the square of the order of power series.
+/// Work growing with the square of the order of power series, to the right of the marks of double-double.
 fn logarithmic_guide(errors: &Errors<'_>) -> Option<Vec<(f64, f64)>> {
-    let rows: Vec<usize> = errors.of(TAYLOR).collect();
+    let rows: Vec<usize> = errors.of(TAYLOR_DOUBLE_DOUBLE).collect();
     let middle = *rows.get(rows.len() / 2).filter(|_| rows.len() > 2)?;
     let order = |error: f64| 2.0 - 0.5 * libm::log(error);
     let through = |decades: i32| {
         let error = libm::pow(10.0, f64::from(-decades));
         let ratio = order(error) / order(errors.largest[middle]);
-        (0.8 * errors.work[middle] * ratio * ratio, error)
+        (1.35 * errors.work[middle] * ratio * ratio, error)
     };
-    Some((4..=16).map(through).collect())
+    Some((18..=30).map(through).collect())
 }
 
-fn request_panel(title: &str, errors: &Errors<'_>) -> Result<Panel, NodeError> {
-    let ticks = (1..=4).map(|i| (libm::pow(10.0, f64::from(-8 * i)), format!("10^{{−{}}}", 8 * i)));
-    let x = Axis::new("error asked for").log().fixed(1e-30, 0.1).ticks_at(ticks).reversed();
-    let equal = DirectLabel::new("as asked").at(At::Fraction(0.8)).side(Side::AboveRight);
-    let mut panel = Panel::new(x, error_axis())
-        .title(title.to_owned())
-        .mark(rounding())
-        .mark(Curve::new(Role::Reference, vec![(0.1, 0.1), (1e-30, 1e-30)]).label(equal));
+fn request_panel(title: &str, errors: &Errors<'_>, first: bool) -> Result<Panel, NodeError> {
+    let x = Axis::new("relative error asked for").log().fixed(1e-30, 0.1).ticks_at(eighth_powers(1)).reversed();
+    let y = Axis::new("achieved over asked").log().fixed(3e-5, 20.0);
+    let equal = DirectLabel::new("as asked").at(At::End).side(Side::AboveLeft);
+    let mut panel = Panel::new(x, y).title(title.to_owned()).mark(RuleLine::horizontal(Role::Reference, 1.0).label(equal));
+    if first {
+        panel = panel.mark(Text::new((0.05, 9.0), Side::Right, "marks: largest; lines: median"));
+    }
     let median = errors.column("median_error")?;
-    for drawn in &METHODS {
-        let at = |error: &[f64]| -> Vec<(f64, f64)> {
-            errors.of(drawn.method).map(|row| (errors.asked[row], error[row].max(ERRORS.0))).collect()
+    // Nothing is asked of a closed form.
+    for drawn in METHODS.iter().filter(|drawn| drawn.method != CLOSED_FORM) {
+        let over = |error: &[f64]| -> Vec<(f64, f64)> {
+            errors.of(drawn.method).map(|row| (errors.asked[row], error[row].max(ERRORS.0) / errors.asked[row])).collect()
         };
-        panel = marked(panel, drawn, at(errors.largest));
-        panel = panel.mark(Points { marker: Some(Marker::Dot), ..Points::new(drawn.role, at(median)) });
+        let medians = over(median);
+        if medians.is_empty() {
+            continue;
+        }
+        if medians.len() > 1 {
+            panel = panel.mark(Curve::new(drawn.role, medians));
+        }
+        panel = panel.mark(Points { marker: drawn.marker, ..Points::new(drawn.role, over(errors.largest)) }.legend(drawn.words));
     }
     Ok(panel)
 }
@@ -506,12 +535,8 @@ fn measured_picture(params: &Params, tables: &Tables) -> Result<Picture, NodeErr
         machine = table.texts("machine").map_err(unread)?.first().cloned().unwrap_or_default();
         let errors = Errors::timed(table)?;
         let x = Axis::new("time per conjugate time").unit("µs").log();
-        let mut panel = Panel::new(x, error_axis()).title(title.to_owned()).mark(rounding());
-        for drawn in &METHODS {
-            let points = errors.of(drawn.method).map(|row| (errors.work[row], errors.largest[row].max(ERRORS.0))).collect();
-            panel = marked(panel, drawn, points);
-        }
-        panels.push(panel);
+        let panel = Panel::new(x, error_axis()).title(title.to_owned()).mark(rounding());
+        panels.push(work_marks(panel, &errors, false));
     }
     let picture = Picture::new(Width::Double, 86.0, "What accuracy costs in time").caption(format!(
         "Measured on {machine}, one thread: largest relative error against time per first conjugate time, mean of the starts' shortest of {} times. {} \

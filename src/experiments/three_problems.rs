@@ -63,9 +63,12 @@ pub struct Measurement {
     pub repetitions: usize,
 }
 
+/// Accepted of numbers of starts and of repetitions: more is a slip.
 const MOST: &str = "1 to 10000";
 
 impl SpinStarts {
+    /// Refuses a k or a p_θ that is not positive.
+    ///
     /// # Errors
     /// The first value that is not accepted.
     pub fn validate(&self) -> Result<(), Invalid> {
@@ -75,6 +78,8 @@ impl SpinStarts {
 }
 
 impl SerretAndoyerStarts {
+    /// Refuses a body out of order, or a ξ1 that does not oscillate.
+    ///
     /// # Errors
     /// The first value that is not accepted.
     pub fn validate(&self) -> Result<(), Invalid> {
@@ -88,6 +93,8 @@ impl SerretAndoyerStarts {
 }
 
 impl RotationGroupStarts {
+    /// Refuses a body out of order, or too many directions or none.
+    ///
     /// # Errors
     /// The first value that is not accepted.
     pub fn validate(&self) -> Result<(), Invalid> {
@@ -98,6 +105,8 @@ impl RotationGroupStarts {
 }
 
 impl Measurement {
+    /// Refuses no repetitions, and more than anybody waits for.
+    ///
     /// # Errors
     /// A number of repetitions that is not accepted.
     pub fn validate(&self) -> Result<(), Invalid> {
@@ -106,7 +115,7 @@ impl Measurement {
     }
 }
 
-/// At least one accuracy, and falling errors.
+/// Refuses a list without an accuracy, and errors that do not fall.
 ///
 /// # Errors
 /// The first that does not fall.
