@@ -274,8 +274,9 @@ fn recorded() -> Vec<(String, Vec<(String, u64)>)> {
     let mut nodes = Vec::new();
     for entry in std::fs::read_dir(folder).expect("golden/") {
         let path = entry.expect("an entry").path();
-        // An experiment about the effects themselves, judged by its own claims.
-        if path.extension().is_none_or(|ending| ending != "snap") || path.ends_with("cost_of_effects.snap") {
+        // Experiments about the effects and methods themselves, judged by their own claims.
+        let about_methods = ["cost_of_effects.snap", "accuracy.snap"].iter().any(|name| path.ends_with(name));
+        if path.extension().is_none_or(|ending| ending != "snap") || about_methods {
             continue;
         }
         let text = std::fs::read_to_string(&path).expect("a golden");

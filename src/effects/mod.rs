@@ -3,6 +3,7 @@
 pub mod arithmetic;
 pub mod conjugate_point_versus_k;
 pub mod conjugate_point_versus_k_by_integration;
+pub mod cost_of_accuracy;
 pub mod cost_of_effects;
 pub mod counted;
 pub mod hard_cases;

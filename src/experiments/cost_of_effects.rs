@@ -9,13 +9,16 @@
 //! numbers that count; what observers do (an event's own series, roots) is counted apart.
 
 use super::definition::{Definition, Experiment, Measured, findings_kind, picture_kind};
-use super::findings::unread;
+use super::findings::{Cases, unread};
 use super::nodes::Nodes;
+use super::three_problems::{
+    self, Measurement, PROBLEMS, ROTATION_GROUP, ROTATION_GROUP_LEAVES, RotationGroupStarts, SERRET_ANDOYER,
+    SERRET_ANDOYER_LEAVES, SPIN, SPIN_LEAVES, SerretAndoyerStarts, SpinStarts,
+};
 use crate::contract::accuracy::{Accuracy, Arithmetic};
-use crate::contract::claim::{Claim, Evidence, Test};
+use crate::contract::claim::Claim;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
-use crate::contract::sweep::Sweep;
 use crate::contract::value::NamedValue;
 use crate::effects::cost_of_effects::counted::CostOfEffects;
 use crate::effects::cost_of_effects::machine;
@@ -23,7 +26,6 @@ use crate::effects::cost_of_effects::rotation_group::RotationGroup;
 use crate::effects::cost_of_effects::serret_andoyer::SerretAndoyer;
 use crate::effects::cost_of_effects::spin::Spin;
 use crate::effects::cost_of_effects::timed::TimeOfEffects;
-use crate::effects::scene::Inertia;
 use crate::plot::axis::Axis;
 use crate::plot::label::Label;
 use crate::plot::mark::{Curve, Points, RuleLine, Side, Text};
@@ -53,71 +55,15 @@ pub struct Params {
     pub measurement: Measurement,
 }
 
-/// The spin problem's starts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SpinStarts {
-    /// `k > 0`.
-    pub k: f64,
-    /// `p_θ(0) > 0`: a number, a list or a range.
-    pub p_theta: Sweep,
-}
-
-/// The Serret-Andoyer flow's starts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SerretAndoyerStarts {
-    /// Inverse moments of inertia.
-    pub body: Inertia,
-    /// The angle y at the start (rad).
-    pub y0: f64,
-    /// `ξ1`, between cos² y0 and 1: a number, a list or a range.
-    pub xi1: Sweep,
-}
-
-/// The starts on SO(3).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct RotationGroupStarts {
-    /// Inverse moments of inertia.
-    pub body: Inertia,
-    /// Number of momenta, 1 to 10000.
-    pub directions: usize,
-}
-
-/// How times are measured.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Measurement {
-    /// How often each start is integrated, 1 to 10000.
-    pub repetitions: usize,
-}
-
 impl Validate for Params {
     fn validate(&self) -> Result<(), Invalid> {
-        Invalid::unless(!self.accuracies.is_empty(), "accuracies", "[]", "at least one accuracy")?;
-        for (i, pair) in self.accuracies.windows(2).enumerate() {
-            let falls = pair[1].relative_error() < pair[0].relative_error();
-            let accepted = format!("a relative error below {} (falling)", pair[0]);
-            Invalid::unless(falls, format!("accuracies[{}]", i + 1), pair[1], accepted)?;
-        }
+        three_problems::validate_accuracies(&self.accuracies)?;
         let most = "1 to 10000";
         Invalid::unless((1..=10_000).contains(&self.samples), "samples", self.samples, most)?;
-        let SpinStarts { k, p_theta } = &self.spin;
-        Invalid::number(*k > 0.0 && k.is_finite(), "spin.k", *k, "a number above 0")?;
-        p_theta.validate_each("spin.p_theta", "p_theta > 0", |p_theta| p_theta > 0.0)?;
-        let SerretAndoyerStarts { body, y0, xi1 } = &self.serret_andoyer;
-        body.validate("serret-andoyer.body")?;
-        Invalid::number(y0.is_finite(), "serret-andoyer.y0", *y0, "a finite number")?;
-        let cosine = libm::cos(*y0);
-        let least = cosine * cosine;
-        let accepted = format!("cos^2(y0) = {least:.6} < xi1 < 1 (oscillating)");
-        xi1.validate_each("serret-andoyer.xi1", &accepted, |xi1| xi1 > least && xi1 < 1.0)?;
-        let RotationGroupStarts { body, directions } = &self.rotation_group;
-        body.validate("rotation-group.body")?;
-        Invalid::unless((1..=10_000).contains(directions), "rotation-group.directions", directions, most)?;
-        let Measurement { repetitions } = self.measurement;
-        Invalid::unless((1..=10_000).contains(&repetitions), "measurement.repetitions", repetitions, most)
+        self.spin.validate()?;
+        self.serret_andoyer.validate()?;
+        self.rotation_group.validate()?;
+        self.measurement.validate()
     }
 }
 
@@ -138,41 +84,18 @@ impl Params {
     fn rotation_group(&self) -> RotationGroup {
         RotationGroup { body: self.rotation_group.body.into(), directions: self.rotation_group.directions }
     }
-
-    /// Accuracies in words.
-    fn accuracies(&self) -> String {
-        self.asked().iter().map(|asked| format!("{asked:e}")).collect::<Vec<_>>().join(", ")
-    }
 }
-
-/// Which config keys the leaves of a problem's nodes come from.
-fn origins(problem: &str, leaves: &[&'static str]) -> Vec<(&'static str, String)> {
-    let body = [("problem.body.A", "A"), ("problem.body.B", "B"), ("problem.body.C", "C")];
-    let mut origins: Vec<(&'static str, String)> = vec![("asked", "accuracies".to_owned())];
-    if problem != "spin" {
-        origins.extend(body.map(|(leaf, name)| (leaf, format!("{problem}.body.{name}"))));
-    }
-    origins.extend(leaves.iter().map(|leaf| {
-        let name = leaf.rsplit('.').next().unwrap_or(leaf);
-        (*leaf, format!("{problem}.{name}"))
-    }));
-    origins
-}
-
-const SPIN_LEAVES: &[&str] = &["problem.k", "problem.p_theta"];
-const SERRET_ANDOYER_LEAVES: &[&str] = &["problem.y0", "problem.xi1"];
-const ROTATION_GROUP_LEAVES: &[&str] = &["problem.directions"];
 
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Cost>();
 
 const PICTURE: Kind = picture_kind(
     "cost_of_effects-picture",
-    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "plot", "table"],
+    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/three_problems.rs", "plot", "table"],
 );
 const MEASURED_PICTURE: Kind = picture_kind(
     "cost_of_effects-measured-picture",
-    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "plot", "table"],
+    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/three_problems.rs", "plot", "table"],
 );
 const FINDINGS: Kind = findings_kind(
     "cost_of_effects-findings",
@@ -184,6 +107,7 @@ const FINDINGS: Kind = findings_kind(
         "experiments/findings.rs",
         "experiments/scenes",
         "experiments/spin_branches.rs",
+        "experiments/three_problems.rs",
         "table",
     ],
 );
@@ -209,11 +133,11 @@ impl Definition for Cost {
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
         let (asked, samples) = (params.asked(), params.samples);
         let spin = CostOfEffects { problem: params.spin(), asked: asked.clone(), samples };
-        nodes.add(SPIN, &[], spin, &[], &origins(SPIN, SPIN_LEAVES))?;
+        nodes.add(SPIN, &[], spin, &[], &three_problems::origins(SPIN, SPIN_LEAVES))?;
         let reduced = CostOfEffects { problem: params.serret_andoyer(), asked: asked.clone(), samples };
-        nodes.add(SERRET_ANDOYER, &[], reduced, &[], &origins(SERRET_ANDOYER, SERRET_ANDOYER_LEAVES))?;
+        nodes.add(SERRET_ANDOYER, &[], reduced, &[], &three_problems::origins(SERRET_ANDOYER, SERRET_ANDOYER_LEAVES))?;
         let group = CostOfEffects { problem: params.rotation_group(), asked, samples };
-        nodes.add(ROTATION_GROUP, &[], group, &[], &origins(ROTATION_GROUP, ROTATION_GROUP_LEAVES))?;
+        nodes.add(ROTATION_GROUP, &[], group, &[], &three_problems::origins(ROTATION_GROUP, ROTATION_GROUP_LEAVES))?;
         Ok(())
     }
 
@@ -230,7 +154,7 @@ impl Definition for Cost {
             params.spin.p_theta.count(),
             params.serret_andoyer.xi1.count(),
             params.rotation_group.directions,
-            params.accuracies(),
+            three_problems::in_words(&params.asked()),
         ));
         let range = count_range(tables)?;
         for (problem, title) in PROBLEMS {
@@ -301,29 +225,10 @@ impl Definition for Cost {
                 }
             }
         }
-        Ok(tests
-            .into_iter()
-            .map(|(id, statement, cases)| Claim {
-                id: id.to_owned(),
-                place: "not in the article: how this program computes".to_owned(),
-                statement: statement.to_owned(),
-                evidence: Evidence::Direct(Test::None {
-                    counterexamples: cases.faults,
-                    cases: cases.all,
-                    example: cases.example,
-                }),
-                note: String::new(),
-            })
-            .collect())
+        let place = "not in the article: how this program computes";
+        Ok(tests.into_iter().map(|(id, statement, cases)| cases.claim(id, place, statement)).collect())
     }
 }
-
-const SPIN: &str = "spin";
-const SERRET_ANDOYER: &str = "serret-andoyer";
-const ROTATION_GROUP: &str = "rotation-group";
-/// The problems, as tables and in words.
-const PROBLEMS: [(&str, &str); 3] =
-    [(SPIN, "spin problem"), (SERRET_ANDOYER, "Serret-Andoyer"), (ROTATION_GROUP, "SO(3)")];
 
 /// A table of counts, read.
 struct Counts<'t> {
@@ -357,26 +262,6 @@ impl<'t> Counts<'t> {
     /// The same per start.
     fn per_start(&self, column: &str, row: usize) -> Result<f64, NodeError> {
         Ok(self.of(column, row)? / self.of("starts", row)?)
-    }
-}
-
-/// Cases examined, and those that fail.
-#[derive(Default)]
-struct Cases {
-    all: u64,
-    faults: u64,
-    example: String,
-}
-
-impl Cases {
-    fn add(&mut self, fault: bool, words: impl FnOnce() -> String) {
-        self.all += 1;
-        if fault {
-            self.faults += 1;
-            if self.example.is_empty() {
-                self.example = words();
-            }
-        }
     }
 }
 
@@ -550,7 +435,7 @@ fn measurements(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
     let Measurement { repetitions } = params.measurement;
     let (asked, samples, machine) = (params.asked(), params.samples, machine::describe());
     let with = |problem: &str, leaves: &[&'static str]| {
-        let mut origins = origins(problem, leaves);
+        let mut origins = three_problems::origins(problem, leaves);
         origins.push(("repetitions", "measurement.repetitions".to_owned()));
         origins
     };
@@ -619,6 +504,7 @@ fn timed_panel(title: &str, table: &Table, samples: usize) -> Result<Panel, Node
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::claim::Evidence;
     use crate::experiments::preview;
 
     #[test]
@@ -662,7 +548,7 @@ mod tests {
             assert_eq!((measured, exports), if measure { (3, 4) } else { (0, 0) });
         }
         let measuring = crate::experiments::ALL.iter().filter(|experiment| experiment.measures);
-        assert_eq!(measuring.map(|experiment| experiment.kind).collect::<Vec<_>>(), ["cost_of_effects"]);
+        assert_eq!(measuring.map(|experiment| experiment.kind).collect::<Vec<_>>(), ["cost_of_effects", "accuracy"]);
     }
 
     #[test]

@@ -84,3 +84,39 @@ pub fn routes_agree(second_routes: &[&Table]) -> Result<Claim, NodeError> {
         note: String::new(),
     })
 }
+
+/// Cases examined, and those that fail.
+#[derive(Clone, Debug, Default)]
+pub struct Cases {
+    all: u64,
+    faults: u64,
+    example: String,
+}
+
+impl Cases {
+    /// One more case, and whether it fails; the words are kept of the first that does.
+    pub fn add(&mut self, fault: bool, words: impl FnOnce() -> String) {
+        self.all += 1;
+        if fault {
+            self.faults += 1;
+            if self.example.is_empty() {
+                self.example = words();
+            }
+        }
+    }
+
+    /// The claim that none fails.
+    pub fn claim(self, id: &str, place: &str, statement: &str) -> Claim {
+        Claim {
+            id: id.to_owned(),
+            place: place.to_owned(),
+            statement: statement.to_owned(),
+            evidence: Evidence::Direct(Test::None {
+                counterexamples: self.faults,
+                cases: self.all,
+                example: self.example,
+            }),
+            note: String::new(),
+        }
+    }
+}

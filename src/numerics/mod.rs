@@ -1,5 +1,6 @@
 //! Pure mathematics on floating-point numbers. Knows no geometry and no files.
 
+pub mod counting;
 pub mod counts;
 pub mod double_double;
 pub mod elliptic;

@@ -7,23 +7,23 @@
 use crate::contract::node::{Kind, NodeError};
 use crate::effects::cost_of_effects::problem::{EffectSet, Problem, times_until};
 use crate::effects::product::failed;
+use crate::effects::rotation_group::directions::spread_evenly;
 use crate::effects::rotation_group::start::Body;
 use crate::geometry::rotation_group::attitude_route::AttitudeFlow;
 use crate::geometry::rotation_group::body_flow::BodyFlow;
 use crate::geometry::rotation_group::conjugate::first_conjugate_times;
 use crate::geometry::rotation_group::metric::Metric;
+use crate::numerics::counting::Counting;
 use crate::numerics::counts::Work;
 use crate::numerics::taylor::dense::{Kept, SampleAt};
 use crate::numerics::taylor::flow::{Columns, Joined, WithColumns};
 use crate::numerics::taylor::integrator::{IntegrationError, Settings, integrate};
 use crate::numerics::taylor::monitor::Invariant;
-use crate::numerics::taylor::multiplications::{Counting, multiplications_in_a_step};
+use crate::numerics::taylor::multiplications::multiplications_in_a_step;
 use crate::numerics::taylor::step::ErrorNorm;
 use serde::Serialize;
 use std::hint::black_box;
 
-/// The golden angle, π(3 − √5): directions that follow each other by it are spread evenly.
-const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 /// Conjugate times that are asked for.
 const WANTED: usize = 2;
 
@@ -42,6 +42,7 @@ const CODE: &[&str] = &[
     "effects/cost_of_effects/rotation_group.rs",
     "effects/counted.rs",
     "effects/product.rs",
+    "effects/rotation_group/directions.rs",
     "effects/rotation_group/start.rs",
     "geometry/rotation_group",
     "geometry/serret_andoyer",
@@ -54,6 +55,7 @@ const CODE_TIMED: &[&str] = &[
     "effects/cost_of_effects/timed.rs",
     "effects/counted.rs",
     "effects/product.rs",
+    "effects/rotation_group/directions.rs",
     "effects/rotation_group/start.rs",
     "geometry/rotation_group",
     "geometry/serret_andoyer",
@@ -100,17 +102,13 @@ impl Problem for RotationGroup {
 
     fn pose(&self, samples: usize) -> Result<Vec<Posed>, NodeError> {
         let metric = self.body.metric()?;
-        let one = |i: usize| {
-            let height = 1.0 - (2.0 * i as f64 + 1.0) / self.directions as f64;
-            let (sine, cosine) = libm::sincos(GOLDEN_ANGLE * i as f64);
-            let radius = (1.0 - height * height).sqrt();
-            let state = [radius * cosine, radius * sine, height];
+        let one = |state: [f64; 3]| {
             let found = first_conjugate_times(&metric, state, WANTED, f64::EPSILON)
                 .map_err(failed(&format!("{:?}, momentum {state:?}", self.body)))?;
             let end = found.times.last().copied().unwrap_or_default();
             Ok(Posed { metric, state, end, times: times_until(end, samples) })
         };
-        (0..self.directions).map(one).collect()
+        spread_evenly(self.directions).map(one).collect()
     }
 
     fn integrate(&self, posed: &Posed, set: EffectSet, tolerance: f64) -> Result<Work, NodeError> {

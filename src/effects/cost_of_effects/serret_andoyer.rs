@@ -10,12 +10,13 @@ use crate::effects::serret_andoyer::body::Body;
 use crate::geometry::serret_andoyer::flow::{
     FlowError, IntegratedConjugate, SerretAndoyerFlow, first_conjugate_time_by_integration,
 };
+use crate::numerics::counting::Counting;
 use crate::numerics::counts::Work;
 use crate::numerics::taylor::dense::{Kept, SampleAt};
 use crate::numerics::taylor::flow::{Columns, Joined, WithColumns};
 use crate::numerics::taylor::integrator::{Settings, integrate};
 use crate::numerics::taylor::monitor::Invariant;
-use crate::numerics::taylor::multiplications::{Counting, multiplications_in_a_step};
+use crate::numerics::taylor::multiplications::multiplications_in_a_step;
 use crate::numerics::taylor::step::ErrorNorm;
 use serde::Serialize;
 use std::hint::black_box;
@@ -102,13 +103,9 @@ impl Problem for SerretAndoyer {
 
     fn pose(&self, samples: usize) -> Result<Vec<Posed>, NodeError> {
         let Body { a, b, c } = self.body;
-        let (sine, cosine) = libm::sincos(self.y0);
-        let nu = a * sine * sine + b * cosine * cosine;
         let one = |&xi1: &f64| {
             let doing = format!("A, B, C = {a:?}, {b:?}, {c:?}, y0 = {:?}, xi1 = {xi1:?}", self.y0);
-            // (7) with 2h = 1, and p_x from ξ1.
-            let square = 1.0 / (a + xi1 * (b - a));
-            let momenta = [square.sqrt(), ((1.0 - square * nu) / (c - nu)).sqrt()];
+            let momenta = self.body.ascending_momenta(self.y0, xi1);
             let found = self.conjugate(&momenta, f64::EPSILON).map_err(failed(&doing))?;
             let (flow, state) = SerretAndoyerFlow::new([a, b, c], self.y0, momenta[0], momenta[1]);
             Ok(Posed { xi1, momenta, flow, state, end: found.t1, times: times_until(found.t1, samples) })

@@ -3,6 +3,7 @@
 pub mod attitude;
 pub mod conjugate_times;
 pub mod conjugate_times_by_attitude;
+pub mod directions;
 pub mod projected_conjugate_point;
 pub mod projected_conjugate_point_by_integration;
 pub mod projected_path;

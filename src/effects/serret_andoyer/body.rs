@@ -31,6 +31,16 @@ impl Body {
     pub fn metric<S: Real>(&self) -> Result<Metric<S>, NodeError> {
         Metric::new(S::from_f64(self.a), S::from_f64(self.b), S::from_f64(self.c)).map_err(failed("metric"))
     }
+
+    /// `(p_x, p_y)` at arc length, `h = 1/2`, of the ascending extremal with this `ξ1` (between cos² y0 and 1: oscillating) that starts
+    /// at `y0`: by (7), and `p_x² = 1/(A + ξ1 (B − A))`. Sums as they stand: inputs of a problem, not results.
+    pub fn ascending_momenta(&self, y0: f64, xi1: f64) -> [f64; 2] {
+        let Self { a, b, c } = *self;
+        let (sine, cosine) = libm::sincos(y0);
+        let nu = a * sine * sine + b * cosine * cosine;
+        let square = 1.0 / (a + xi1 * (b - a));
+        [square.sqrt(), ((1.0 - square * nu) / (c - nu)).sqrt()]
+    }
 }
 
 /// The largest `δ = B μ(φ0) − 1` at a start, that of the cusp: `(B − A) cn²/Z`, where nothing cancels.

@@ -17,6 +17,7 @@ use crate::geometry::rotation_group::lagrangian_plane::{
 use crate::geometry::rotation_group::metric::{Metric, check_momentum};
 use crate::geometry::rotation_group::vectors::{add_scaled, cross};
 use crate::numerics::real::Real;
+use crate::numerics::runge_kutta::method::PowerSeries;
 use crate::numerics::taylor::events::{EventFunction, EventSeries};
 use crate::numerics::taylor::flow::{
     Algebra, BaseSeries, CAPACITY, Columns, Flow, Joined, Series, Tangent, WithColumns, convolve, convolve_square,
@@ -226,7 +227,7 @@ pub fn first_conjugate_times_by_attitude<S: Real>(
     let start = Joined { base: [S::ONE, S::ZERO, S::ZERO, S::ZERO], columns: Columns([zero; 2]) };
     let determinant = AttitudeDeterminant { space_momentum: body_momentum };
     let settings = Settings::new(tolerance);
-    search(&system, &start, determinant, count, end_of_search(metric, &body_momentum), &settings)
+    search(PowerSeries, &system, &start, determinant, count, end_of_search(metric, &body_momentum), &settings)
 }
 
 #[cfg(test)]

@@ -27,9 +27,10 @@ use crate::geometry::rotation_group::metric::{DomainError, Metric, check_momentu
 use crate::geometry::rotation_group::vectors::{add_scaled, cross, dot, frame_across, norm, scaled};
 use crate::numerics::counts::Work;
 use crate::numerics::real::Real;
+use crate::numerics::runge_kutta::method::{Method, PowerSeries};
 use crate::numerics::taylor::events::{EventFunction, EventSeries, Zeros};
 use crate::numerics::taylor::flow::{Columns, Flow, Joined, Series, WithColumns};
-use crate::numerics::taylor::integrator::{IntegrationError, Observer, Settings, Step, integrate};
+use crate::numerics::taylor::integrator::{IntegrationError, Observer, Settings, Step};
 use crate::numerics::taylor::step::{Jet, absolute_sum};
 use std::ops::ControlFlow;
 
@@ -213,7 +214,8 @@ pub(super) fn energy_preserving_variations<S: Real>(metric: &Metric<S>, body_mom
 }
 
 /// Runs the search on a system that starts with `D ~ t²`.
-pub(super) fn search<S: Real, F: JacobiPair<S>, E: EventFunction<S, F>>(
+pub(super) fn search<M: Method, S: Real, F: JacobiPair<S>, E: EventFunction<S, F>>(
+    method: M,
     system: &F,
     start: &F::State<S>,
     determinant: E,
@@ -224,7 +226,7 @@ pub(super) fn search<S: Real, F: JacobiPair<S>, E: EventFunction<S, F>>(
     let zeros = Zeros::new(determinant, 2);
     let times = Vec::with_capacity(count + 1);
     let mut search = ConjugateSearch { zeros, wanted: count, times, error: 0.0, pair_ends: None };
-    let arrival = integrate(system, start, (S::ZERO, t_max), settings, &mut search)?;
+    let arrival = method.integrate(system, start, (S::ZERO, t_max), settings, &mut search)?;
     let mut times = search.times;
     if times.len() < count {
         let found = times.iter().map(|t| t.to_f64()).collect();
@@ -292,11 +294,26 @@ pub fn first_conjugate_times<S: Real>(
     count: usize,
     tolerance: f64,
 ) -> Result<ConjugateTimes<S>, ConjugateError> {
-    first_conjugate_times_by(metric, body_momentum, count, &Settings::new(tolerance))
+    first_conjugate_times_by(PowerSeries, metric, body_momentum, count, &Settings::new(tolerance))
+}
+
+/// The same by any method: none but the power series, at a tolerance of ε, tells zeros apart that touch.
+///
+/// # Errors
+/// [`ConjugateError`]: outside the domain, fewer found within [`SEARCHED_TURNS`] turns, integration failed.
+pub fn first_conjugate_times_by_method<M: Method, S: Real>(
+    method: M,
+    metric: &Metric<S>,
+    body_momentum: [S; 3],
+    count: usize,
+    tolerance: f64,
+) -> Result<ConjugateTimes<S>, ConjugateError> {
+    first_conjugate_times_by(method, metric, body_momentum, count, &Settings::new(tolerance))
 }
 
 /// The same with all settings of the integration, among them how many steps it may take.
-pub(super) fn first_conjugate_times_by<S: Real>(
+pub(super) fn first_conjugate_times_by<M: Method, S: Real>(
+    method: M,
     metric: &Metric<S>,
     body_momentum: [S; 3],
     count: usize,
@@ -309,7 +326,7 @@ pub(super) fn first_conjugate_times_by<S: Real>(
         energy_preserving_variations(metric, &body_momentum).map(|[p1, p2, p3]| [p1, p2, p3, zero, zero, zero]);
     let start = Joined { base: body_momentum, columns: Columns(columns) };
     let t_max = end_of_search(metric, &body_momentum);
-    search(&system, &start, BodyDeterminant, count, t_max, settings)
+    search(method, &system, &start, BodyDeterminant, count, t_max, settings)
 }
 
 #[cfg(test)]

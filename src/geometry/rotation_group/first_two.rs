@@ -15,6 +15,7 @@ use crate::geometry::rotation_group::polhode::{Polhode, Start};
 use crate::numerics::counts::Work;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
+use crate::numerics::runge_kutta::method::PowerSeries;
 use crate::numerics::taylor::integrator::Settings;
 
 /// The relative error up to which an answer is taken as it is: stable whatever the condition number (it is 1/3 at least).
@@ -216,7 +217,9 @@ fn find(start: &Start, enough: f64) -> Result<FirstTwo, FirstTwoError> {
     if enough > 0.0 && exact {
         let metric = metric(start.inverse_inertia.map(Real::to_f64))?;
         let settings = Settings { maximum_steps: MOST_STEPS[0], ..Settings::new(f64::EPSILON) };
-        if let Ok(found) = first_conjugate_times_by(&metric, start.momentum.map(Real::to_f64), 2, &settings) {
+        if let Ok(found) =
+            first_conjugate_times_by(PowerSeries, &metric, start.momentum.map(Real::to_f64), 2, &settings)
+        {
             work = work.plus(found.work);
             if found.error <= enough {
                 let times = [0, 1].map(|i| (found.times[i], 0.0));
@@ -225,7 +228,9 @@ fn find(start: &Start, enough: f64) -> Result<FirstTwo, FirstTwoError> {
         }
     }
     let settings = Settings { maximum_steps: MOST_STEPS[1], ..Settings::new(LONG_TOLERANCE) };
-    if let Ok(found) = first_conjugate_times_by(&metric(start.inverse_inertia)?, start.momentum, 2, &settings) {
+    if let Ok(found) =
+        first_conjugate_times_by(PowerSeries, &metric(start.inverse_inertia)?, start.momentum, 2, &settings)
+    {
         let times = [0, 1].map(|i| (found.times[i].high(), found.times[i].low()));
         let work = work.plus(found.work);
         let answer = told(start, times, found.error + rounded, Route::LongIntegration, calls, work)?;

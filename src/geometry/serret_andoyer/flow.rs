@@ -21,12 +21,13 @@
 
 use crate::numerics::counts::Work;
 use crate::numerics::real::Real;
+use crate::numerics::runge_kutta::method::{Method, PowerSeries};
 use crate::numerics::taylor::dense::sample;
 use crate::numerics::taylor::events::{Component, Events};
 use crate::numerics::taylor::flow::{
     Algebra, Columns, Flow, Joined, Series, Tangent, WithColumns, convolve_each, largest,
 };
-use crate::numerics::taylor::integrator::{IntegrationError, Settings, integrate};
+use crate::numerics::taylor::integrator::{IntegrationError, Settings};
 
 /// The flow (9) at a fixed `p_x` and energy. State: `[x, y, z = y', S = sin 2y, u = cos 2y]`.
 #[derive(Clone, Copy, Debug)]
@@ -249,12 +250,27 @@ pub fn first_conjugate_time_by_integration<S: Real>(
     t_max: S,
     tolerance: f64,
 ) -> Result<IntegratedConjugate<S>, FlowError> {
-    let (flow, base) = posed([a, b, c], y0, p_x, p_y)?;
+    first_conjugate_time_by_method(PowerSeries, [a, b, c], [y0, p_x, p_y], armed_after, t_max, tolerance)
+}
+
+/// The same by any method.
+///
+/// # Errors
+/// [`FlowError`]: outside the domain, none found, integration failed.
+pub fn first_conjugate_time_by_method<M: Method, S: Real>(
+    method: M,
+    inverse_inertia: [S; 3],
+    [y0, p_x, p_y]: [S; 3],
+    armed_after: S,
+    t_max: S,
+    tolerance: f64,
+) -> Result<IntegratedConjugate<S>, FlowError> {
+    let (flow, base) = posed(inverse_inertia, y0, p_x, p_y)?;
     let (column, parameter) = flow.column(&base);
     let system = WithColumns { flow, parameters: [parameter] };
     let start = Joined { base, columns: Columns([column]) };
     let mut events = Events::first(1, Component(5)).vanishing_at_start(1).armed_after(armed_after);
-    let arrival = integrate(&system, &start, (S::ZERO, t_max), &Settings::new(tolerance), &mut events)?;
+    let arrival = method.integrate(&system, &start, (S::ZERO, t_max), &Settings::new(tolerance), &mut events)?;
     let Some(root) = events.found.first() else { return Err(FlowError::NoneBefore { t_max: t_max.to_f64() }) };
     let [x, y, ..] = root.state.base;
     Ok(IntegratedConjugate { t1: root.time, x, y, blur: root.blur, steps: arrival.work.steps, work: arrival.work })

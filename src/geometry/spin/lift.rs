@@ -17,6 +17,7 @@
 
 use crate::numerics::counts::Work;
 use crate::numerics::real::Real;
+use crate::numerics::runge_kutta::method::{Method, PowerSeries};
 use crate::numerics::taylor::dense::sample;
 use crate::numerics::taylor::events::{Component, EventFunction, EventRoot, EventSeries, Events};
 use crate::numerics::taylor::flow::{
@@ -226,11 +227,26 @@ pub fn conjugate_times_by_integration<S: Real>(
     t_max: S,
     wanted: usize,
 ) -> Result<(Vec<IntegratedConjugate<S>>, Work), LiftError> {
+    conjugate_times_by_method(PowerSeries, k, p_theta, tolerance, t_max, wanted)
+}
+
+/// The same by any method: none but the power series, at a tolerance of ε, tells zeros apart that touch.
+///
+/// # Errors
+/// [`LiftError`]: outside the domain, integration failed.
+pub fn conjugate_times_by_method<M: Method, S: Real>(
+    method: M,
+    k: S,
+    p_theta: S,
+    tolerance: f64,
+    t_max: S,
+    wanted: usize,
+) -> Result<(Vec<IntegratedConjugate<S>>, Work), LiftError> {
     let (flow, base) = posed(k, p_theta)?;
     let system = WithColumns { flow, parameters: [()] };
     let start: LiftedState<S> = Joined { base, columns: Columns([[S::ZERO, -S::ONE, S::ZERO]]) };
     let mut events = Events::first(wanted, ConjugateScalar).vanishing_at_start(VANISHING_ORDER);
-    let arrival = integrate(&system, &start, (S::ZERO, t_max), &Settings::new(tolerance), &mut events)?;
+    let arrival = method.integrate(&system, &start, (S::ZERO, t_max), &Settings::new(tolerance), &mut events)?;
     let point = |root: &EventRoot<S, LiftedState<S>>| {
         let [r1, r2, r3, h1, h2, h3] = root.state.base;
         let (t1, blur, multiplicity) = (root.time, root.blur, root.multiplicity);

@@ -1,87 +1,21 @@
 //! How many multiplications the series of one step take, counted by running the equations themselves on numbers that count.
 //!
-//! A flow's equations have no branch on a value ([`Algebra`]), so the count depends on the flow and the order alone: it is exact,
+//! A flow's equations have no branch on a value ([`Algebra`](crate::numerics::taylor::flow::Algebra)), so the count depends on the flow and the order alone: it is exact,
 //! it is the same on every machine, and times the steps it is the work of an integration's series, columns included. What observers
 //! do (an event's own series, roots, states inside steps) is not in it.
 //!
 //! Not known here: time. A machine multiplies several numbers at once, and a coefficient costs more than its products.
 
-use crate::numerics::taylor::flow::{Algebra, Elements, Flow};
+use crate::numerics::counting::{Counting, counted};
+use crate::numerics::taylor::flow::{Elements, Flow};
 use crate::numerics::taylor::step::Jet;
-use std::cell::Cell;
-use std::ops::{Add, Div, Mul, Neg, Sub};
 
-thread_local! {
-    static MULTIPLICATIONS: Cell<u64> = const { Cell::new(0) };
-}
-
-/// A number that counts the multiplications and divisions of its thread.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Counting(
-    /// The number.
-    pub f64,
-);
-
-fn count() {
-    MULTIPLICATIONS.with(|counter| counter.set(counter.get() + 1));
-}
-
-impl Add for Counting {
-    type Output = Self;
-    fn add(self, other: Self) -> Self {
-        Counting(self.0 + other.0)
-    }
-}
-
-impl Sub for Counting {
-    type Output = Self;
-    fn sub(self, other: Self) -> Self {
-        Counting(self.0 - other.0)
-    }
-}
-
-impl Mul for Counting {
-    type Output = Self;
-    fn mul(self, other: Self) -> Self {
-        count();
-        Counting(self.0 * other.0)
-    }
-}
-
-impl Div for Counting {
-    type Output = Self;
-    fn div(self, other: Self) -> Self {
-        count();
-        Counting(self.0 / other.0)
-    }
-}
-
-impl Neg for Counting {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Counting(-self.0)
-    }
-}
-
-impl Algebra for Counting {
-    fn number(x: f64) -> Self {
-        Counting(x)
-    }
-    fn size(self) -> Self {
-        Counting(self.0.abs())
-    }
-    fn larger(self, other: Self) -> Self {
-        Counting(self.0.max(other.0))
-    }
-}
-
-/// Multiplications in the series of one step of this order.
+/// Multiplications and divisions in the series of one step of this order.
 pub fn multiplications_in_a_step<F: Flow<Counting>>(flow: &F, order: usize) -> u64 {
     let mut jet = Jet::<Counting, F>::new(order);
     let start = F::State::<Counting>::filled(Counting(1.0));
-    MULTIPLICATIONS.with(|counter| counter.set(0));
-    jet.expand(flow, &start);
-    MULTIPLICATIONS.with(Cell::get)
+    let ((), operations) = counted(|| jet.expand(flow, &start));
+    operations.products + operations.quotients
 }
 
 #[cfg(test)]
