@@ -23,6 +23,8 @@ use serde::{Serialize, Serializer};
 pub const PICTURE_FILE: &str = "picture.svg";
 /// The output of a findings node.
 pub const FINDINGS_FILE: &str = "findings.json";
+/// The name of the node that draws an experiment's picture.
+pub const PICTURE_NODE: &str = "picture";
 /// The name of the node that holds an experiment's values and claims.
 pub const FINDINGS_NODE: &str = "findings";
 
@@ -207,7 +209,7 @@ fn plan<D: Definition>(id: &str, source: &ConfigSource, request: Request) -> Res
     let readers: [(&str, &str, Node); 2] = [
         (PICTURE_FILE, "svg", {
             let reader = Picturing { id: id.to_owned(), params: params.clone(), kind: D::PICTURE, draw: drawn::<D> };
-            Node::new(Address::new(id, "picture"), reader).map_err(undescribable)?.origin(CONFIG, "")
+            Node::new(Address::new(id, PICTURE_NODE), reader).map_err(undescribable)?.origin(CONFIG, "")
         }),
         (FINDINGS_FILE, "json", {
             Node::new(Address::new(id, FINDINGS_NODE), Finding::<D> { params }).map_err(undescribable)?
