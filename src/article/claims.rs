@@ -47,13 +47,8 @@ pub fn words(verdict: Verdict) -> &'static str {
     }
 }
 
-const ORDER: [Verdict; 5] = [
-    Verdict::Holds,
-    Verdict::HoldsPrintedWithSlip,
-    Verdict::HoldsOnlyWhen,
-    Verdict::Fails,
-    Verdict::NotChecked,
-];
+const ORDER: [Verdict; 5] =
+    [Verdict::Holds, Verdict::HoldsPrintedWithSlip, Verdict::HoldsOnlyWhen, Verdict::Fails, Verdict::NotChecked];
 
 /// The line on top: how many statements, and what became of them.
 pub fn verdict_line(claims: &[Judged<'_>]) -> String {
@@ -85,7 +80,8 @@ pub fn add(page: &mut String, claims: &[Judged<'_>]) {
     );
     for judged in claims {
         let Judged { part, claim, verdict, evidence } = judged;
-        let mut statement = format!("<span id=\"claim-{0}-{1}\">{2}</span>", part.id, claim.id, escape(&claim.statement));
+        let mut statement =
+            format!("<span id=\"claim-{0}-{1}\">{2}</span>", part.id, claim.id, escape(&claim.statement));
         if let Evidence::Slip { correction, .. } = &claim.evidence {
             let _ = write!(statement, "<br><em>corrected:</em> {}", escape(correction));
         }

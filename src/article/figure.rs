@@ -93,9 +93,12 @@ pub fn add(page: &mut String, part: &Part) -> Result<(), PageError> {
     for (words, link) in &part.sources {
         let _ = write!(page, " · <a href=\"{}\">{}</a>", escape(link), escape(words));
     }
-    page.push_str("</p>\n<details><summary>Config values and hashes of the tables</summary>\n<table class=\"plain\">\n");
+    page.push_str(
+        "</p>\n<details><summary>Config values and hashes of the tables</summary>\n<table class=\"plain\">\n",
+    );
     for (key, value) in &picture.entries {
-        let _ = write!(page, "<tr><th scope=\"row\">{}</th><td><code>{}</code></td></tr>\n", escape(key), escape(value));
+        let _ =
+            write!(page, "<tr><th scope=\"row\">{}</th><td><code>{}</code></td></tr>\n", escape(key), escape(value));
     }
     page.push_str("</table></details>\n</section>\n");
     Ok(())

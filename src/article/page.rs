@@ -93,7 +93,8 @@ mod tests {
             id: "fig1".to_owned(),
             title: "A figure".to_owned(),
             place: "Figure 1".to_owned(),
-            picture: "<svg width=\"89mm\" viewBox=\"0 0 1 1\"><title>t</title><desc>the caption</desc></svg>".to_owned(),
+            picture: "<svg width=\"89mm\" viewBox=\"0 0 1 1\"><title>t</title><desc>the caption</desc></svg>"
+                .to_owned(),
             findings: Findings { values: vec![], claims: vec![claim("good", 1.2346), claim("bad", 1.2)] },
             sources: vec![("fig1.toml".to_owned(), "../../experiments/fig1.toml".to_owned())],
             tables: vec![],
@@ -121,9 +122,9 @@ mod tests {
         let mut rest = TEMPLATE;
         while let Some((text, after)) = rest.split_once('<') {
             words.push_str(text);
-            let skipped = ["math", "code", "pre", "cite"].iter().find(|tag| {
-                after.strip_prefix(**tag).is_some_and(|next| next.starts_with([' ', '>']))
-            });
+            let skipped = ["math", "code", "pre", "cite"]
+                .iter()
+                .find(|tag| after.strip_prefix(**tag).is_some_and(|next| next.starts_with([' ', '>'])));
             let end = skipped.map_or(">".to_owned(), |tag| format!("</{tag}>"));
             rest = after.split_once(&end).map_or("", |(_, after)| after);
         }

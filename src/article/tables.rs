@@ -38,7 +38,12 @@ pub fn printed_values(page: &mut String, claims: &[Judged<'_>]) {
         };
         let Test::Equal { printed, ours, .. } = test else { continue };
         let cells = [
-            format!("<a href=\"#claim-{0}-{1}\">{2}</a>", judged.part.id, judged.claim.id, escape(&judged.claim.statement)),
+            format!(
+                "<a href=\"#claim-{0}-{1}\">{2}</a>",
+                judged.part.id,
+                judged.claim.id,
+                escape(&judged.claim.statement)
+            ),
             escape(&format!("{printed}")).replace('-', "−"),
             number(*ours),
             rough((ours - printed) / last_digit(*printed)),
@@ -74,7 +79,18 @@ pub fn named_values(page: &mut String, content: &Content, of: impl Fn(&str) -> b
 pub fn hard_cases(page: &mut String, content: &Content) -> Result<(), PageError> {
     let Some(part) = content.part("hard_cases") else { return Ok(()) };
     let missing = |error: crate::table::TableError| PageError::Table { part: part.id.clone(), why: error.to_string() };
-    head(page, &["family", "distance to the limit", "cases", "naive error, at worst", "our error, at worst", "condition, at most", "verdicts"]);
+    head(
+        page,
+        &[
+            "family",
+            "distance to the limit",
+            "cases",
+            "naive error, at worst",
+            "our error, at worst",
+            "condition, at most",
+            "verdicts",
+        ],
+    );
     for (name, _, table) in &part.tables {
         if !table.has("verdict") {
             continue;
@@ -113,7 +129,8 @@ fn counted(verdicts: &[String]) -> String {
 pub fn effects(page: &mut String, content: &Content) {
     head(page, &["metric", "effects"]);
     for metric in &content.metrics {
-        let effects: Vec<String> = metric.effects.iter().map(|effect| format!("<code>{}</code>", escape(effect))).collect();
+        let effects: Vec<String> =
+            metric.effects.iter().map(|effect| format!("<code>{}</code>", escape(effect))).collect();
         row(page, "td", &[format!("<code>{}</code>", escape(&metric.metric)), effects.join(", ")]);
     }
     tail(page);

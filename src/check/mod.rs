@@ -11,5 +11,6 @@ pub mod golden;
 mod number;
 pub mod reference;
 pub mod report;
+pub mod values_tex;
 pub mod values_toml;
 pub mod verdict;

@@ -1,10 +1,11 @@
-//! `figures/article/index.html`: the page, as a node that reads what all experiments found, drew and computed; its CSV tables beside it.
+//! `figures/article/index.html`: the page, as a node that reads what all experiments found, drew and computed; its CSV tables and TeX macros beside it.
 //!
 //! It belongs to the whole, like `values.toml`: runs with targets leave it alone, and so do levels of accuracy other than `article`.
 
 use crate::article::content::{Content, MetricEffects, PageError, Part};
 use crate::article::figure::csv_name;
 use crate::article::page::page;
+use crate::check::values_tex;
 use crate::cli::collected;
 use crate::cli::workspace::Loaded;
 use crate::contract::digest::Digest;
@@ -26,6 +27,7 @@ pub const ID: &str = "article";
 /// The folder below the output folder.
 pub const FOLDER: &str = "article";
 const PAGE_FILE: &str = "index.html";
+const TEX_FILE: &str = "values.tex";
 const LOCI: &str = "loci";
 /// The slider's values of k, in thousandths: from, to, step.
 const LOCI_K: (u32, u32, u32) = (100, 1500, 25);
@@ -90,8 +92,10 @@ pub fn plan(experiments: &[Loaded], places: Places) -> Result<Plan, NodeError> {
     let rank = |loaded: &&Loaded| experiments::ALL.iter().position(|known| known.kind == loaded.kind);
     in_order.sort_by_key(rank);
     let entries: Vec<Entry> = in_order.iter().map(|loaded| entry(loaded, places)).collect();
-    let metrics =
-        METRICS.iter().map(|(metric, effects)| (*metric, effects.iter().map(|effect| effect.name()).collect())).collect();
+    let metrics = METRICS
+        .iter()
+        .map(|(metric, effects)| (*metric, effects.iter().map(|effect| effect.name()).collect()))
+        .collect();
     let (from, to, step) = LOCI_K;
     let k = (from..=to).step_by(step as usize).map(|k| f64::from(k) / 1000.0).collect();
     let loci = Node::new(Address::new(ID, LOCI), ConjugateLoci { k, p_theta: LOCI_MOMENTA }).map_err(defect)?;
@@ -99,13 +103,16 @@ pub fn plan(experiments: &[Loaded], places: Places) -> Result<Plan, NodeError> {
     let compute = PageOf { entries: entries.clone(), metrics, graph: graph_digest(&plans), plans };
     let mut node = Node::new(Address::new(ID, "page"), compute).map_err(defect)?.input(LOCI, &loci.address, TABLE);
     let export = |path: String, node: &Address, artifact: String| Export { path, from: node.clone(), artifact };
-    let mut exports = vec![export(format!("{FOLDER}/{PAGE_FILE}"), &node.address, PAGE_FILE.to_owned())];
+    let mut exports: Vec<Export> =
+        [PAGE_FILE, TEX_FILE].map(|file| export(format!("{FOLDER}/{file}"), &node.address, file.to_owned())).into();
     for (loaded, entry) in in_order.iter().zip(&entries) {
         let id = &entry.id;
-        node = node
-            .input(picture_input(id), &Address::new(id.clone(), PICTURE_NODE), PICTURE_FILE)
-            .input(findings_input(id), &Address::new(id.clone(), FINDINGS_NODE), FINDINGS_FILE);
-        for made in loaded.plan.exports.iter().filter(|made| made.artifact == TABLE) {
+        node = node.input(picture_input(id), &Address::new(id.clone(), PICTURE_NODE), PICTURE_FILE).input(
+            findings_input(id),
+            &Address::new(id.clone(), FINDINGS_NODE),
+            FINDINGS_FILE,
+        );
+        for made in loaded.plan.exports.iter().filter(|made| made.artifact == TABLE && made.path.starts_with("data/")) {
             let name = made.from.file_stem();
             node = node.input(table_input(id, &name), &made.from, TABLE);
             let csv = csv_artifact(id, &name);
@@ -124,7 +131,7 @@ fn entry(loaded: &Loaded, places: Places) -> Entry {
     if places.source {
         sources.push((format!("{}.rs", loaded.kind), format!("../../src/experiments/{}.rs", loaded.kind)));
     }
-    let made = loaded.plan.exports.iter().filter(|made| made.artifact == TABLE);
+    let made = loaded.plan.exports.iter().filter(|made| made.artifact == TABLE && made.path.starts_with("data/"));
     let tables = made.map(|made| (made.from.file_stem(), made.path.clone())).collect();
     Entry { id, title: loaded.title, place: loaded.place, sources, tables }
 }
@@ -203,6 +210,8 @@ impl Compute for PageOf {
             graph: graph_picture(&self.plans)?,
             loci: Some(input_table(inputs, LOCI)?),
         };
+        let values = content.parts.iter().map(|part| (part.id.as_str(), part.findings.values.as_slice()));
+        artifacts.push(Artifact::opaque(TEX_FILE, values_tex::write(values).into_bytes()));
         let page = page(&content).map_err(|error: PageError| NodeError::new(error.to_string()))?;
         artifacts.push(Artifact::opaque(PAGE_FILE, page.into_bytes()));
         Ok(Product { artifacts, work: Work::default() })

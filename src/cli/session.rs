@@ -185,7 +185,8 @@ impl Session {
 
 /// What the page can link to: configs and source, where they lie where the repository has them.
 fn places(workspace: &Workspace) -> Places {
-    let is_usual = workspace.out == workspace.root.join(FIGURES) && workspace.experiments == workspace.root.join(EXPERIMENTS);
+    let is_usual =
+        workspace.out == workspace.root.join(FIGURES) && workspace.experiments == workspace.root.join(EXPERIMENTS);
     Places { configs: is_usual, source: is_usual && workspace.root.join("src/experiments/scene.rs").is_file() }
 }
 

@@ -70,7 +70,8 @@
     const text = make('span', { class: 'readout', 'aria-live': 'off' }, tools);
     const value = (range, part) => {
       const [low, high] = [Number(range[0]), Number(range[1])];
-      return range[2] === 'log' ? low * (high / low) ** part : low + (high - low) * part;
+      const at = low + (high - low) * part;
+      return range[2] === 'log' ? 10 ** at : at;
     };
     svg.addEventListener('pointermove', (event) => {
       const at = point(event);

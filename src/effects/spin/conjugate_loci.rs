@@ -50,7 +50,8 @@ impl Compute for ConjugateLoci {
         let work: Work = branches.iter().map(|(_, work)| *work).sum();
         let rows: Vec<_> =
             self.k.iter().zip(&branches).flat_map(|(k, (branch, _))| branch.iter().map(move |row| (*k, row))).collect();
-        let column = |of: &dyn Fn(&(f64, &super::branch::BranchPoint)) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
+        let column =
+            |of: &dyn Fn(&(f64, &super::branch::BranchPoint)) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
         let table = Table::builder("spin-conjugate-loci", "first conjugate points for p_φ(0) = −2, p_θ(0) ≥ 0")
             .column("k", "1", "ratio of the couplings", column(&|row| row.0))
             .column("p_theta", "1", "p_θ(0), ascending from 0 for each k", column(&|row| row.1.p_theta))
