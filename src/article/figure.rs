@@ -78,7 +78,7 @@ pub fn add(page: &mut String, part: &Part) -> Result<(), PageError> {
         picture.svg,
         escape(&picture.caption),
     );
-    let _ = write!(page, "<p class=\"links\"><a href=\"../{id}.svg\">SVG</a>");
+    let _ = write!(page, "<p class=\"links\"><a href=\"../{id}.svg\">SVG</a> · <a href=\"pdf/{id}.pdf\">PDF</a>");
     for (name, path, table) in &part.tables {
         let _ = write!(
             page,
