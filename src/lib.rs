@@ -45,6 +45,7 @@
 //!
 //! One point: [`effects::point::answer`]. One formula: [`geometry`]. A new figure: `polhode new fig10`.
 
+pub mod article;
 pub mod check;
 pub mod cli;
 pub mod contract;

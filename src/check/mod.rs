@@ -13,5 +13,6 @@ pub mod movement;
 mod number;
 pub mod reference;
 pub mod report;
+pub mod values_tex;
 pub mod values_toml;
 pub mod verdict;

@@ -16,6 +16,7 @@ pub mod init;
 pub mod list;
 pub mod log;
 pub mod new;
+pub mod page;
 pub mod point;
 pub mod progress;
 pub mod schema;

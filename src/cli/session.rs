@@ -5,7 +5,8 @@ use crate::cli::arguments::PlaceArguments;
 use crate::cli::collected;
 use crate::cli::console;
 use crate::cli::exit::Exit;
-use crate::cli::workspace::{Loaded, Workspace, WorkspaceError};
+use crate::cli::page::{self, Places};
+use crate::cli::workspace::{EXPERIMENTS, FIGURES, Loaded, Workspace, WorkspaceError};
 use crate::contract::accuracy::Accuracy;
 use crate::contract::node::Address;
 use crate::contract::value::Findings;
@@ -112,6 +113,10 @@ impl Session {
             let ids: Vec<&str> = experiments.iter().map(|experiment| experiment.plan.id.as_str()).collect();
             let plan = collected::plan(&ids);
             plans.push(plan.map_err(|error| Refused { exit: Exit::Defect, text: error.to_string() })?);
+            if workspace.accuracy.is_none_or(|level| level == Accuracy::Article) {
+                let plan = page::plan(&experiments, places(&workspace));
+                plans.push(plan.map_err(|error| Refused { exit: Exit::Defect, text: error.to_string() })?);
+            }
         }
         let graph = Graph::join(plans).map_err(|errors| Refused { exit: Exit::Defect, text: lines(&errors) })?;
         let selection =
@@ -178,10 +183,16 @@ impl Session {
     }
 }
 
-/// The folders below the output folder that hold other things: measurements, the article page, other levels of accuracy.
+/// What the page can link to: configs and source, where they lie where the repository has them.
+fn places(workspace: &Workspace) -> Places {
+    let is_usual =
+        workspace.out == workspace.root.join(FIGURES) && workspace.experiments == workspace.root.join(EXPERIMENTS);
+    Places { configs: is_usual, source: is_usual && workspace.root.join("src/experiments/scene.rs").is_file() }
+}
+
+/// The folders below the output folder that hold other things: measurements, other levels of accuracy.
 fn unscanned(workspace: &Workspace) -> Vec<String> {
-    let mut folders = vec![MEASURED_FOLDER.to_owned(), "article".to_owned()];
-    folders.extend([Accuracy::Draft, Accuracy::Reference].map(|level| level.to_string()));
+    let mut folders = vec![MEASURED_FOLDER.to_owned(), Accuracy::Draft.to_string(), Accuracy::Reference.to_string()];
     for entry in std::fs::read_dir(&workspace.out).into_iter().flatten().flatten() {
         if let Ok(name) = entry.file_name().into_string()
             && name.parse::<Accuracy>().is_ok()

@@ -22,6 +22,8 @@ use serde::{Serialize, Serializer};
 
 /// The output of a picture node.
 pub const PICTURE_FILE: &str = "picture.svg";
+/// The other output of a picture node: the same page for LaTeX.
+pub const PDF_FILE: &str = "picture.pdf";
 /// The output of a findings node.
 pub const FINDINGS_FILE: &str = "findings.json";
 /// The name of the node that draws an experiment.
@@ -241,6 +243,10 @@ fn plan<D: Definition>(id: &str, source: &ConfigSource, request: Request) -> Res
         }
         let path = if ending == "svg" { format!("{id}.svg") } else { format!("data/{id}/{FINDINGS_FILE}") };
         plan.exports.push(Export { path, from: node.address.clone(), artifact: artifact.to_owned() });
+        if ending == "svg" {
+            let path = format!("article/pdf/{id}.pdf");
+            plan.exports.push(Export { path, from: node.address.clone(), artifact: PDF_FILE.to_owned() });
+        }
         plan.nodes.push(node);
     }
     Ok(Planned { plan, config_digest: config.key() })
@@ -334,9 +340,10 @@ impl<P: Serialize + Send + Sync> Compute for Picturing<P> {
         for (name, file) in inputs.iter() {
             picture.metadata.push((format!("table {name}"), file.logical.to_string()));
         }
-        let bytes =
-            crate::plot::render::render(&picture).map_err(|error| NodeError::new(format!("drawing: {error}")))?;
-        Ok(Product { artifacts: vec![Artifact::opaque(PICTURE_FILE, bytes)], work: Work::default() })
+        let (svg, pdf) =
+            crate::plot::render::render_both(&picture).map_err(|error| NodeError::new(format!("drawing: {error}")))?;
+        let artifacts = vec![Artifact::opaque(PICTURE_FILE, svg), Artifact::opaque(PDF_FILE, pdf)];
+        Ok(Product { artifacts, work: Work::default() })
     }
 }
 

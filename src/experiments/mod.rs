@@ -19,4 +19,4 @@ macro_rules! experiments {
     };
 }
 
-experiments! { fig1 fig2 theorem_3_9 remark_3_25 fig3 fig4 fig5 fig6 fig7 fig8 fig9 cost_of_effects accuracy scene }
+experiments! { fig1 fig2 theorem_3_9 remark_3_25 fig3 fig4 fig5 fig6 fig7 fig8 fig9 cost_of_effects accuracy hard_cases statements scene }

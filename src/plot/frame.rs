@@ -220,11 +220,23 @@ pub fn axis_margins(frame: &Frame, x: &Axis, y: &Axis, dense: bool) -> Margins {
     out
 }
 
+/// A span from its beginning to its end on the page, and whether these are powers of ten: `0 3.5 lin`, `-4 2 log`.
+fn read_out(span: &Span) -> String {
+    let ends = span.ends();
+    let scale = if span.scale == Scale::Log { "log" } else { "lin" };
+    format!("{:?} {:?} {scale}", ends.start, ends.end)
+}
+
 /// Draws the frame, its ticks and what is written around it.
 pub fn draw_axes(page: &mut Document, frame: &Frame, x: &Axis, y: &Axis, id: &str, dense: bool) {
     let (along, up) = frame.ticks(x, y, dense);
     let ((left, top), (right, bottom)) = frame.corners();
-    page.open_lines(&[("id", id), ("data-role", "axes")], Colour::BLACK, AXIS_WIDTH, &[]);
+    let Rect { left: l, top: t, right: r, bottom: b } = frame.rect;
+    let (place, across, upwards) = (format!("{l:.2} {t:.2} {r:.2} {b:.2}"), read_out(&frame.x), read_out(&frame.y));
+    // What a reader of the file needs to turn a place on the page into data again.
+    let attributes =
+        [("id", id), ("data-role", "axes"), ("data-frame", &place), ("data-x", &across), ("data-y", &upwards)];
+    page.open_lines(&attributes, Colour::BLACK, AXIS_WIDTH, &[]);
     let width = hundredths(AXIS_WIDTH);
     page.rect((left, top), (right, bottom), false, Colour::BLACK, width);
     let length = |label: &Option<Label>| hundredths(if label.is_some() { TICK_LENGTH } else { TICK_LENGTH / 2.0 });

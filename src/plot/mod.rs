@@ -24,6 +24,7 @@ pub mod label;
 pub mod layout;
 pub mod legend;
 pub mod mark;
+pub mod pdf;
 pub mod picture;
 pub mod pieces;
 pub mod place;

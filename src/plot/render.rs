@@ -27,6 +27,12 @@ pub fn render(picture: &Picture) -> Result<Vec<u8>, PlotError> {
     Ok(page.finish(&picture.title, &picture.caption, &picture.metadata))
 }
 
+/// The SVG of a picture, and the same page as PDF; guarantee and errors as for [`render`].
+pub fn render_both(picture: &Picture) -> Result<(Vec<u8>, Vec<u8>), PlotError> {
+    let page = drawn(picture)?;
+    Ok((page.finish(&picture.title, &picture.caption, &picture.metadata), page.pdf(&picture.title)))
+}
+
 /// The box of every text of a picture on its page: for tests that no text is cut off or covers another.
 pub fn text_boxes(picture: &Picture) -> Result<(Rect, Vec<TextBox>), PlotError> {
     let page = drawn(picture)?;

@@ -6,6 +6,7 @@
 use super::colour::Colour;
 use super::font;
 use super::label::{Label, Run, Script};
+use super::pdf::Ink;
 use std::fmt::Write as _;
 
 /// Points in a millimetre: 72/25.4.
@@ -136,6 +137,7 @@ pub struct Document {
     panel: Option<usize>,
     boxes: Vec<TextBox>,
     notes: Vec<String>,
+    ink: Ink,
 }
 
 /// Points to whole hundredths.
@@ -231,6 +233,7 @@ impl Document {
             panel: None,
             boxes: Vec::new(),
             notes: Vec::new(),
+            ink: Ink::new(hundredths(height_mm * POINTS_PER_MM)),
         }
     }
 
@@ -277,6 +280,7 @@ impl Document {
             let _ = write!(self.body, " {key}=\"{}\"", escape(value));
         }
         self.body.push_str(">\n");
+        self.ink.open(attributes);
         let inherited = self.pens.last().copied().flatten();
         self.pens.push(inherited);
     }
@@ -292,6 +296,7 @@ impl Document {
             all.push(("stroke-dasharray", pattern.as_str()));
         }
         self.open(&all);
+        self.ink.dash(dash);
         self.set_pen(Pen { colour, width: hundredths(width), filled: false });
     }
 
@@ -313,12 +318,14 @@ impl Document {
     /// Closes the group opened last.
     pub fn close(&mut self) {
         self.pens.pop();
+        self.ink.close();
         self.indent();
         self.body.push_str("</g>\n");
     }
 
     /// Defines a rectangle to clip with, in hundredths of a point.
     pub fn clip(&mut self, id: &str, (left, top): (i32, i32), (right, bottom): (i32, i32)) {
+        self.ink.clip(id, (left, top), (right, bottom));
         let _ = write!(self.defs, "  <clipPath id=\"{}\"><rect", escape(id));
         for (key, value) in [("x", left), ("y", top), ("width", right - left), ("height", bottom - top)] {
             let _ = write!(self.defs, " {key}=\"{}\"", text_of(value));
@@ -365,6 +372,10 @@ impl Document {
         if !closed {
             points = simplified(&points);
         }
+        if points.len() < 2 {
+            return;
+        }
+        self.ink.path(&points, closed, filled, colour, width);
         let mut data = String::new();
         let mut count = 0;
         for point in points {
@@ -381,9 +392,6 @@ impl Document {
             number(&mut data, point.1);
             count += 1;
         }
-        if count < 2 {
-            return;
-        }
         if closed {
             data.push('Z');
         }
@@ -395,6 +403,7 @@ impl Document {
     /// A rectangle.
     pub fn rect(&mut self, a: (i32, i32), b: (i32, i32), filled: bool, colour: Colour, width: i32) {
         let (left, top) = (a.0.min(b.0), a.1.min(b.1));
+        self.ink.rect(a, b, filled, colour, width);
         self.indent();
         self.body.push_str("<rect");
         for (key, value) in [("x", left), ("y", top), ("width", (a.0 - b.0).abs()), ("height", (a.1 - b.1).abs())] {
@@ -406,6 +415,7 @@ impl Document {
 
     /// A circle.
     pub fn circle(&mut self, centre: (i32, i32), radius: i32, filled: bool, colour: Colour, width: i32) {
+        self.ink.circle(centre, radius, filled, colour, width);
         self.indent();
         self.body.push_str("<circle");
         for (key, value) in [("cx", centre.0), ("cy", centre.1), ("r", radius)] {
@@ -439,6 +449,9 @@ impl Document {
         }
         let rect = Self::text_rect(label, at, style.size, style.anchor, style.upright);
         self.boxes.push(TextBox { text: label.to_plain(), kind: style.kind, panel: self.panel, rect });
+        let before = if style.upright { rect.bottom - at.1 } else { at.0 - rect.left };
+        let start = if style.upright { (at.0, at.1 + before) } else { (at.0 - before, at.1) };
+        self.ink.text(label, start, style.size, style.colour, style.halo, style.upright);
         self.indent();
         let (x, y) = (text_of(hundredths(at.0)), text_of(hundredths(at.1)));
         let _ = write!(self.body, "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\"", text_of(hundredths(style.size)));
@@ -498,6 +511,11 @@ impl Document {
         } else {
             write!(self.body, "<tspan{attributes}>{letters}</tspan>")
         };
+    }
+
+    /// The same page as PDF.
+    pub fn pdf(&self, title: &str) -> Vec<u8> {
+        self.ink.finish(self.width, title)
     }
 
     /// The whole file.

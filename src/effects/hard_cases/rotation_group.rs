@@ -22,6 +22,7 @@ use crate::geometry::rotation_group::metric::Metric;
 use crate::geometry::rotation_group::polhode::{Polhode, Start};
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The article's inertia: what a family sends to no limit stays there.
@@ -40,7 +41,7 @@ const PART: f64 = 0.3;
 const COARSE: f64 = 1e-6;
 
 /// A family.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
     /// `B/A − 1 = ½ (C/A − 1) → 0`: double conjugate times.

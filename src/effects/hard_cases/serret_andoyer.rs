@@ -18,6 +18,7 @@ use crate::geometry::serret_andoyer::reference::first_conjugate_point_to_referen
 use crate::geometry::serret_andoyer::{Branch, Clairaut, Extremal, Metric, Start};
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The article's inertia, `A, B, C`: what a family sends to no limit stays there.
@@ -34,7 +35,7 @@ const Y0: f64 = 1.0;
 const LONG_DELTA: f64 = 1e-6;
 
 /// A family.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Family {
     /// `δ → 0`, given.

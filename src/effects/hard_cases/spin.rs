@@ -35,6 +35,7 @@ use crate::geometry::spin::start::Start;
 use crate::geometry::spin::switch_points::{Passage, switch_points};
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -62,7 +63,7 @@ const SECANT_STEPS: usize = 6;
 const HALVINGS: usize = 60;
 
 /// The side from which a limit is approached.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Side {
     /// From smaller values.
@@ -72,7 +73,7 @@ pub enum Side {
 }
 
 /// What is answered at a pole.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Answered {
     /// The first conjugate time.
@@ -82,7 +83,7 @@ pub enum Answered {
 }
 
 /// A family, with the parameters that stay.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Family {
     /// `p_θ → 0`.
@@ -147,7 +148,7 @@ pub enum Family {
 }
 
 /// One family swept towards its limit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HardCasesSpin {
     /// The family.

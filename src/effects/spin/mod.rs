@@ -3,6 +3,7 @@
 pub mod branch;
 pub mod by_integration;
 pub mod chart;
+pub mod conjugate_loci;
 pub mod conjugate_locus;
 pub mod contact;
 pub mod cut_locus;

@@ -1,0 +1,127 @@
+//! The statements as nodes: one a group, and one table of what became of its statements.
+
+use super::statement::{Statement, Unexamined};
+use crate::contract::claim::{Evidence, Test};
+use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
+use crate::contract::work::Work;
+use crate::effects::product::{failed, product};
+use crate::table::Table;
+use rayon::prelude::*;
+use serde::Serialize;
+
+/// The groups: a name, and the statements of one file.
+pub const GROUPS: &[(&str, &[Statement])] = &[];
+
+/// The kind.
+pub const KIND: Kind = Kind {
+    name: "statements",
+    summary: "statements of the article, each examined as printed, corrected, and wrong on purpose",
+    code: &["effects/statements", "effects/product.rs", "contract/claim.rs", "geometry", "numerics", "table"],
+    measurement: false,
+};
+
+/// Examines a group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Statements {
+    /// The group's name.
+    pub group: &'static str,
+}
+
+/// How far a test is from its limit: measured over allowed; none where cases are counted.
+fn margin(test: &Test) -> Option<f64> {
+    match test {
+        Test::Equal { printed, ours, tolerance, .. } => Some((printed - ours).abs() / tolerance),
+        Test::AtMost { measured, tolerance, .. } => Some(measured / tolerance),
+        Test::None { .. } => None,
+    }
+}
+
+/// The test of the form that is claimed to hold.
+fn own(evidence: &Evidence) -> Option<&Test> {
+    match evidence {
+        Evidence::Direct(test) => Some(test),
+        Evidence::Slip { corrected, .. } => Some(corrected),
+        Evidence::OnlyWhen { inside, .. } => Some(inside),
+        Evidence::NotChecked { .. } => None,
+    }
+}
+
+impl Compute for Statements {
+    fn kind(&self) -> &'static Kind {
+        &KIND
+    }
+
+    fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
+        let (name, statements) = GROUPS
+            .iter()
+            .find(|(name, _)| *name == self.group)
+            .ok_or_else(|| NodeError::new(format!("no group of statements is called {:?}", self.group)))?;
+        let examined = statements
+            .par_iter()
+            .map(Statement::examined)
+            .collect::<Result<Vec<_>, Unexamined>>()
+            .map_err(failed(name))?;
+        let mut claims = Vec::with_capacity(examined.len());
+        for done in &examined {
+            claims.push(serde_json::to_string(&done.claim).map_err(failed(&done.claim.id))?);
+        }
+        let text = |of: &dyn Fn(usize) -> String| (0..examined.len()).map(of).collect::<Vec<String>>();
+        let counts = |of: &dyn Fn(usize) -> usize| (0..examined.len()).map(|i| of(i) as i64).collect::<Vec<i64>>();
+        let gap = |margin: Option<f64>| margin.unwrap_or(f64::NAN);
+        let least = |i: usize| examined[i].variants.iter().filter_map(|variant| margin(&variant.test)).reduce(f64::min);
+        let table = Table::builder("statements", "statements of the article and what became of them")
+            .column("id", "", "the statement's name", text(&|i| examined[i].claim.id.clone()))
+            .column("place", "", "where it stands in the article", text(&|i| examined[i].claim.place.clone()))
+            .column("method", "", "how it was checked", text(&|i| examined[i].method.clone()))
+            .column("wrong_forms", "1", "forms that are wrong on purpose", counts(&|i| examined[i].variants.len()))
+            .column(
+                "refused",
+                "1",
+                "of them, those that the same check refused",
+                counts(&|i| examined[i].variants.len() - examined[i].survivors().count()),
+            )
+            .column_with_gaps(
+                "margin",
+                "1",
+                "measured over allowed, of the form that is claimed to hold",
+                examined.iter().map(|done| gap(own(&done.claim.evidence).and_then(margin))).collect::<Vec<f64>>(),
+            )
+            .column_with_gaps(
+                "least_wrong_margin",
+                "1",
+                "the same, the least of the wrong forms",
+                (0..examined.len()).map(|i| gap(least(i))).collect::<Vec<f64>>(),
+            )
+            .column("survivors", "", "wrong forms that were not refused", {
+                text(&|i| examined[i].survivors().map(|variant| variant.form.clone()).collect::<Vec<_>>().join("; "))
+            })
+            .column("claim", "", "the claim with its evidence, as JSON", claims)
+            .build()
+            .map_err(failed(name))?;
+        product(&table, Work::default())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::contract::code::undeclared;
+    use std::collections::BTreeSet;
+
+    /// Every statement has at least two wrong forms, one name, and no wrong form survives.
+    #[test]
+    fn no_wrong_form_survives() {
+        let mut names = BTreeSet::new();
+        for (group, statements) in GROUPS {
+            for statement in *statements {
+                assert!(names.insert(statement.id), "two statements are called {}", statement.id);
+                let done = statement.examined().unwrap();
+                let is_checked = !matches!(done.claim.evidence, Evidence::NotChecked { .. });
+                assert!(!is_checked || done.variants.len() >= 2, "{group}/{}", statement.id);
+                let survivors: Vec<_> = done.survivors().collect();
+                assert!(survivors.is_empty(), "{group}/{}: {survivors:?}", statement.id);
+            }
+        }
+        assert_eq!(undeclared(&KIND), Ok(vec![]));
+    }
+}
