@@ -4,7 +4,7 @@
 //! check of struct variants; an unforeseen one is passed on as it is.
 
 use super::error::ConfigProblem;
-use super::place::{Place, parent};
+use super::place::{EMPTY, Place, parent};
 use std::ops::Range;
 
 /// Names less alike than this (Jaro-Winkler) are not suggested; clap uses the same bound.
@@ -71,6 +71,7 @@ fn unknown(
     name: &str,
     accepted: &[String],
 ) -> (Range<usize>, ConfigProblem) {
+    let name = if name.is_empty() { EMPTY } else { name };
     // A key is itself the last step of its path; a name stands at one.
     let key = match what {
         "key" if path.is_empty() => name.to_owned(),

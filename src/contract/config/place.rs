@@ -47,6 +47,9 @@ impl Place {
     }
 }
 
+/// How the empty key is written.
+pub(super) const EMPTY: &str = "\"\"";
+
 /// All places of a document; tables before what they hold.
 pub(super) fn places(document: &DeTable<'_>) -> Vec<Place> {
     let mut found = Vec::new();
@@ -56,7 +59,8 @@ pub(super) fn places(document: &DeTable<'_>) -> Vec<Place> {
 
 fn in_table(table: &DeTable<'_>, path: &str, found: &mut Vec<Place>) {
     for (key, value) in table {
-        let name = key.get_ref();
+        // The empty key is a key: shown as it is written.
+        let name = if key.get_ref().is_empty() { EMPTY } else { key.get_ref() };
         let path = if path.is_empty() { name.to_string() } else { format!("{path}.{name}") };
         let shape = Shape::of(value.get_ref());
         found.push(Place { path: path.clone(), key: key.span(), value: value.span(), shape });

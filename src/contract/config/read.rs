@@ -328,6 +328,8 @@ effects = [\"geodesics\", \"conjugate-locus\"]
         let top = error("count = 3", "cuont = 3");
         assert_eq!(summary(&top), (3, 1, "cuont", "`cuont`", Some("count")));
         assert_eq!(top.accepted, "`scene`, `count`");
+        let empty = error("count = 3", "\"\" = 3");
+        assert_eq!(summary(&empty), (3, 1, "\"\"", "`\"\"`", None));
         let nested = error("metric.spin", "metrics.spin");
         assert_eq!(summary(&nested), (5, 1, "scene.metrics", "`metrics`", Some("metric")));
         let variant = error("metric.spin", "metric.spim");
