@@ -98,7 +98,7 @@ pub fn add(page: &mut String, part: &Part) -> Result<(), PageError> {
     );
     for (key, value) in &picture.entries {
         let _ =
-            write!(page, "<tr><th scope=\"row\">{}</th><td><code>{}</code></td></tr>\n", escape(key), escape(value));
+            writeln!(page, "<tr><th scope=\"row\">{}</th><td><code>{}</code></td></tr>", escape(key), escape(value));
     }
     page.push_str("</table></details>\n</section>\n");
     Ok(())

@@ -377,8 +377,7 @@ impl Document {
         }
         self.ink.path(&points, closed, filled, colour, width);
         let mut data = String::new();
-        let mut count = 0;
-        for point in points {
+        for (count, point) in points.into_iter().enumerate() {
             // The first command after M is L; further points need no letter.
             data.push_str(match count {
                 0 => "M",
@@ -390,7 +389,6 @@ impl Document {
                 data.push(' ');
             }
             number(&mut data, point.1);
-            count += 1;
         }
         if closed {
             data.push('Z');

@@ -10,7 +10,15 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 /// The groups: a name, and the statements of one file.
-pub const GROUPS: &[(&str, &[Statement])] = &[];
+pub const GROUPS: &[(&str, &[Statement])] = &[
+    ("left-invariant", super::left_invariant::ALL),
+    ("spin-curvature", super::spin_curvature::ALL),
+    ("spin-integrability", super::spin_integrability::ALL),
+    ("spin-metric", super::spin_metric::ALL),
+    ("spin-parametrisation", super::spin_parametrisation::ALL),
+    ("spin-pendulum", super::spin_pendulum::ALL),
+    ("spin-system", super::spin_system::ALL),
+];
 
 /// The kind.
 pub const KIND: Kind = Kind {

@@ -1,4 +1,12 @@
 //! The article's statements, each with the check that decides it.
 
 pub mod group;
+pub mod left_invariant;
+pub mod spin_curvature;
+pub mod spin_integrability;
+pub mod spin_metric;
+pub mod spin_parametrisation;
+pub mod spin_pendulum;
+pub mod spin_points;
+pub mod spin_system;
 pub mod statement;

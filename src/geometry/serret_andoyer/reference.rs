@@ -136,10 +136,10 @@ pub fn first_conjugate_point_to_reference(
     let scale = Scale::of(inertia[2], &start);
     let in_own_numbers = |error: StartError| NoPoint::Start(scale.error(error, inertia, &start));
     let metric = scale.metric(inertia).map_err(in_own_numbers)?;
-    if let Start::Momenta { y0, .. } = start {
-        if y0.abs() > MOST_TURNS {
-            return Err(StartError::TooManyTurns { y0 }.into());
-        }
+    if let Start::Momenta { y0, .. } = start
+        && y0.abs() > MOST_TURNS
+    {
+        return Err(StartError::TooManyTurns { y0 }.into());
     }
     let extremal = Extremal::new(&metric, scale.start(start)).map_err(in_own_numbers)?;
     let mc = extremal.complementary_parameter().to_f64();
