@@ -30,9 +30,10 @@ const COARSE_ORDER: usize = 4;
 /// Relative spread of the arguments at which the duplications of the first step end.
 const COARSE: f64 = 0.25;
 
-/// A cosine of the starting amplitude below this one is that of a turning point: its square, over which `T − 2K` goes, is below
-/// rounding beside every `m'` that is a number, and one over it is no number for long.
-const TURNING: f64 = 1e-140;
+/// A cosine of the starting amplitude below this one is that of a turning point, over which integrals end in numbers that are none;
+/// where its square, with which `T − 2K` goes, is besides below this part of `m'`: far below rounding.
+const TURNING: f64 = 1e-100;
+const TURNING_OF_COMPLEMENT: f64 = 1e-40;
 
 /// What the start of an oscillating extremal says of it.
 #[derive(Clone, Copy, Debug)]
@@ -92,15 +93,18 @@ impl<P: Pack> Form<P> {
         let length = (numerator * numerator + denominator * denominator).sqrt();
         let moving = length.more(P::ZERO);
         let cosine = denominator / length;
+        let mc = ca * to_separatrix / square;
+        let turning =
+            cosine.less(P::from_f64(TURNING)).and((cosine * cosine).less(mc * P::from_f64(TURNING_OF_COMPLEMENT)));
         Self {
             m: cb * to_equator / square,
-            mc: ca * to_separatrix / square,
+            mc,
             speed: square.sqrt(),
             gain: gain_squared.sqrt(),
             nu: to_equator / to_minor_axis,
             // On the equator every phase is right: take the turning point.
             sine: P::select(moving, numerator / length, P::ONE),
-            cosine: P::select(moving.and(cosine.more(P::from_f64(TURNING))), cosine, P::ZERO),
+            cosine: P::select(moving.and(turning.not()), cosine, P::ZERO),
         }
     }
 }

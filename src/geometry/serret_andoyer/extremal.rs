@@ -148,14 +148,15 @@ impl<S: Real> Origin<S> {
         let ba = metric.b() - metric.a();
         let c_minus_z = metric.c_minus_z_of_cosine(angle.cosine);
         let square = ba * p_x * p_x;
-        // What moves is not at rest, though its square underflows.
-        let least = if p_y == S::ZERO { S::ZERO } else { S::from_f64(f64::MIN_POSITIVE) };
-        let in_y = (p_y * p_y * c_minus_z).max(least);
+        let in_y = p_y * p_y * c_minus_z;
         let sine_part = square * angle.sine.squared();
         // D = (B−A) p_x² cos²a − g with the common part p_y² (B−A) cos²a taken out: where p_y ~ p_x (B → C) nothing is lost.
         let both = (p_x - p_y) * (p_x + p_y);
         let (kept, taken) = (ba * angle.cosine.squared() * both, p_y * p_y * (metric.c() - metric.b()));
         let to_separatrix = kept - taken;
+        // On the separatrix, what moves is not at rest though its square underflows.
+        let moves = to_separatrix <= S::ZERO && p_y != S::ZERO;
+        let in_y = if moves { in_y.max(S::from_f64(f64::MIN_POSITIVE)) } else { in_y };
         let to_equator = sine_part + in_y;
         let to_minor_axis = both * c_minus_z;
         let epsilon = S::EPSILON;

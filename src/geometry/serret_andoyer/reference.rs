@@ -32,6 +32,9 @@ const MOST_TURNS: f64 = 1e15;
 const LEAST_COMPLEMENT: f64 = 1e-240;
 const LEAST_DELTA: f64 = 1e-280;
 
+/// Below this `(B − A)/C` products of it leave the range of the numbers.
+const LEAST_GAP: f64 = 1e-100;
+
 /// Exponents of two beyond which products of inertia and momenta may leave the range of `f64`.
 const FAR: i32 = 200;
 
@@ -136,6 +139,10 @@ pub fn first_conjugate_point_to_reference(
     let scale = Scale::of(inertia[2], &start);
     let in_own_numbers = |error: StartError| NoPoint::Start(scale.error(error, inertia, &start));
     let metric = scale.metric(inertia).map_err(in_own_numbers)?;
+    let apart = StartError::InertiaTooFarApart { a: inertia[0], c: inertia[2] };
+    if (metric.b() - metric.a()).to_f64() < LEAST_GAP {
+        return Err(apart.into());
+    }
     if let Start::Momenta { y0, .. } = start
         && y0.abs() > MOST_TURNS
     {
@@ -147,20 +154,25 @@ pub fn first_conjugate_point_to_reference(
         return Err(StartError::TooNearSeparatrix { complementary_parameter: mc }.into());
     }
     let point = first_conjugate_point(&extremal).map_err(|reason| match reason {
+        // Where it runs out of numbers, both limits at once are near.
+        NoConjugatePoint::NotSolved { .. } => StartError::TooNearSeparatrix { complementary_parameter: mc }.into(),
         NoConjugatePoint::Unphysical { p_theta } => {
             let exponent = match start {
                 Start::Momenta { .. } => scale.momentum,
                 Start::Darboux { .. } => -scale.length,
             };
-            NoConjugatePoint::Unphysical { p_theta: libm::scalbn(p_theta, exponent) }
+            NoPoint::Extremal(NoConjugatePoint::Unphysical { p_theta: libm::scalbn(p_theta, exponent) })
         }
-        other => other,
+        other => NoPoint::Extremal(other),
     })?;
     let time = |t: DoubleDouble| t.times_power_of_two(-scale.time(&start));
     let (t1, lower_bound) = (time(point.t1), time(point.lower_bound));
     if !(t1.is_finite() && t1.to_f64() >= f64::MIN_POSITIVE) {
         let log2 = libm::log2(point.t1.to_f64()) - f64::from(scale.time(&start));
         return Err(StartError::TimeOutOfScale { log2 }.into());
+    }
+    if !point.numbers_are_finite() {
+        return Err(apart.into());
     }
     let phi = point.phi.times_power_of_two(-scale.length);
     Ok(ConjugatePoint { t1, lower_bound, phi, ..point })
@@ -188,8 +200,11 @@ pub fn in_doubt(metric: &Metric, start: Start, found: &Result<ConjugatePoint, No
                 return true;
             }
             let origin = Origin::new(metric, start, &mut Memory::default());
-            // A zero is in doubt too: its relative error is no number below. What was refused is not.
-            origin.is_ok_and(|origin| !(origin.energies.separatrix_error < DOUBTFUL))
+            // A zero is in doubt too: its relative error is infinite or no number. What was refused is not.
+            origin.is_ok_and(|origin| {
+                let error = origin.energies.separatrix_error;
+                error.is_nan() || error >= DOUBTFUL
+            })
         }
     }
 }

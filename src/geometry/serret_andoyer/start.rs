@@ -106,7 +106,7 @@ pub enum StartError {
         p_y: f64,
     },
     /// The inertia, made of order one, leaves the range of the numbers.
-    #[error("A = {a} and C = {c} leave the range of the numbers together: their ratio is too far from one")]
+    #[error("A = {a} and C = {c} leave the range of the numbers together: C is too large beside A or B - A")]
     InertiaTooFarApart {
         /// A.
         a: f64,
