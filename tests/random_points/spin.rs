@@ -8,7 +8,7 @@ use polhode::effects::point::{Answer, Given, Inputs, Metric, PointError, answer}
 use polhode::geometry::spin::conjugate::{extremal, first_conjugate_point};
 use polhode::geometry::spin::extremal::Extremal;
 use polhode::geometry::spin::reference::first_conjugate_point_in_double_double;
-use polhode::geometry::spin::solve::{Quantity, solve};
+use polhode::geometry::spin::solve::{Quantity, SpinError, solve};
 use polhode::geometry::spin::start::Start;
 use polhode::numerics::double_double::DoubleDouble;
 use polhode::numerics::real::Real;
@@ -112,20 +112,20 @@ fn scale(k: f64, p: f64) -> f64 {
     if p > largest { libm::exp2(f64::from(libm::ilogb(largest) - libm::ilogb(p))) } else { 1.0 }
 }
 
-fn exact(k: DoubleDouble, p: DoubleDouble) -> DoubleDouble {
-    first_conjugate_point_in_double_double(k, p).unwrap().t1
+fn exact(k: DoubleDouble, p: DoubleDouble) -> Result<DoubleDouble, SpinError> {
+    Ok(first_conjugate_point_in_double_double(k, p)?.t1)
 }
 
 /// By how many ε the time changes when one input is moved by one.
-fn condition(k: f64, p: f64, time: DoubleDouble) -> f64 {
+fn condition(k: f64, p: f64, time: DoubleDouble) -> Result<f64, SpinError> {
     let mut largest: f64 = 0.0;
     for factor in [1.0 + EPSILON, 1.0 - EPSILON].map(DoubleDouble::from) {
         let (k, p) = (DoubleDouble::from(k), DoubleDouble::from(p));
-        for moved in [exact(k * factor, p), exact(k, p * factor)] {
+        for moved in [exact(k * factor, p)?, exact(k, p * factor)?] {
             largest = largest.max(((moved - time) / time).abs().to_f64() / EPSILON);
         }
     }
-    largest
+    Ok(largest)
 }
 
 /// No panic, no NaN, no refusal; `error` is a bound in at least 999 of 1000, within a factor of 100 of the truth in the median; and every
@@ -147,7 +147,7 @@ fn random_starts_get_honest_and_stable_answers() {
         // θ has the sign of p_θ, 0 and ±π included.
         assert!(numbers[1] * p_theta >= 0.0 || numbers[1].abs() < 1e-6 || k > 1.0, "{k:e} {p_theta:e}: {told:?}");
         let scale = scale(k, p);
-        let time = exact(k.into(), (p * scale).into());
+        let time = exact(k.into(), (p * scale).into()).unwrap();
         let error = ((DoubleDouble::from(numbers[0] / scale) - time) / time).abs().to_f64();
         let claimed = told.error.unwrap();
         if error > claimed {
@@ -157,7 +157,7 @@ fn random_starts_get_honest_and_stable_answers() {
         ratios.push(claimed / error.max(0.5 * EPSILON));
         // Twenty ε are stable whatever the condition.
         if error > 20.0 * EPSILON || index % 8 == 0 {
-            let condition = condition(k, p * scale, time);
+            let condition = condition(k, p * scale, time).unwrap();
             let units = error / (EPSILON * (1.0 + condition));
             assert!(units <= 20.0, "{k:e} {p:e}: {units} ε (1 + condition), condition {condition:e}");
             worst = worst.max(units);
