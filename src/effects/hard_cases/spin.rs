@@ -299,10 +299,10 @@ impl HardCasesSpin {
     }
 
     fn naive(&self, k: f64, p: f64, start: &Start, of_theta: bool) -> f64 {
-        let t_max = first_conjugate_point(start).map_or(f64::NAN, |point| BEYOND * point.t1);
-        if !(t_max <= LONGEST_INTEGRATION * BEYOND) {
-            return f64::NAN;
-        }
+        let t_max = match first_conjugate_point(start) {
+            Ok(point) if point.t1 <= LONGEST_INTEGRATION => BEYOND * point.t1,
+            _ => return f64::NAN,
+        };
         match self.family {
             Family::LargeMomentum { .. } | Family::Separatrix { .. } => by_printed_forms(k, p, t_max),
             Family::Pole { .. } if of_theta => by_chart(k, p, t_max).theta + PI,
