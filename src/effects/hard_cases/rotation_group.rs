@@ -124,8 +124,8 @@ impl Family {
     pub fn farthest(self) -> f64 {
         match self {
             Self::LongTime => 1e-4,
-            // Most of the way by integration in double-double.
-            Self::MiddleAxis | Self::SeparatingPolhode => 1e-12,
+            // Most of the way by integration in double-double; the closed form in double-double holds as far.
+            Self::MiddleAxis | Self::SeparatingPolhode | Self::LargeAnisotropy => 1e-12,
             _ => 1e-15,
         }
     }

@@ -104,7 +104,7 @@ fn decimal(text: &str) -> DoubleDouble {
         sum = sum * ten + DoubleDouble::from_sum(f64::from(digit - b'0'), 0.0);
     }
     for _ in 0..part.len() {
-        unit = unit * ten;
+        unit *= ten;
     }
     sum / unit
 }

@@ -33,8 +33,8 @@ use crate::numerics::elliptic::incomplete::{delta_squared, incomplete_f_sc, inco
 use crate::numerics::elliptic::jacobi::Jacobi;
 use crate::numerics::real::Real;
 
-/// Rounding of ψ, of Z and of u, each in ε of the terms that it is made of. Their bounds are several times this; at a million random
-/// starts none was above.
+/// Rounding of ψ, of Z and of u, each in ε of the terms that it is made of. A bound would be several times
+/// this; at 50 000 random starts in `f64` the error was nowhere above, and in the median a ninth of it.
 const PSI_ROUNDING: f64 = 1.0;
 const Z_ROUNDING: f64 = 2.0;
 const U_ROUNDING: f64 = 1.0;
@@ -141,7 +141,7 @@ impl<S: Real> ClosedForm<S> {
     }
 
     fn phases(&mut self, time: S) -> Phases<S> {
-        let Polhode { a, k, far, middle, near, far_gap, near_gap, symmetric, cancellation, .. } = self.polhode;
+        let Polhode { a, k, middle, near, far_gap, near_gap, symmetric, cancellation, .. } = self.polhode;
         let two = S::from_f64(2.0);
         let secular = self.edge / k * near * time;
         let epsilon = S::EPSILON.to_f64();
@@ -192,7 +192,6 @@ impl<S: Real> ClosedForm<S> {
                 + of_z * in_z
                 + Z_ROUNDING
                 + U_ROUNDING * (number(u) + 1.0) * of_u);
-        let _ = far;
         told(psi, chi, half_width, rounding)
     }
 

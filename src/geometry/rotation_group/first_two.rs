@@ -33,8 +33,8 @@ const LONG_TOLERANCE: f64 = 1e-26;
 const LARGEST_RATIO: f64 = 1e100;
 /// An answer with a larger relative error is none.
 const WORST: f64 = 1e-3;
-/// Steps after which an integration in `f64`, and in double-double, gives up: about a second of either.
-const MOST_STEPS: [u64; 2] = [100_000, 3000];
+/// Steps after which an integration in `f64`, and in double-double, gives up: half a second of either.
+const MOST_STEPS: [u64; 2] = [25_000, 1500];
 
 /// How the times were found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

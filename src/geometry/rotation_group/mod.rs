@@ -2,6 +2,9 @@
 //!
 //! Integration happens in the body frame and in unit quaternions; Euler angles and Serret-Andoyer variables are charts for
 //! posing problems and reading results.
+//!
+//! The first two conjugate times have a closed form ([`closed_form`], asked for by [`first_two`]); any number of them come from integrating
+//! Jacobi fields ([`conjugate`], [`attitude_route`]), which is the second route and takes over where the closed form does not resolve a start.
 
 pub mod attitude_route;
 pub mod attitude_trajectory;
