@@ -173,6 +173,10 @@ impl<P: Problem> Compute for CostOfAccuracy<P> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::code::undeclared;
+    use crate::effects::cost_of_accuracy::quantities;
+    use crate::effects::cost_of_accuracy::rotation_group::RotationGroup;
+    use crate::effects::cost_of_accuracy::serret_andoyer::SerretAndoyer;
     use crate::effects::cost_of_accuracy::spin::Spin;
     use crate::geometry::spin::conjugate::first_conjugate_point;
     use crate::geometry::spin::lift::first_conjugate_time_by_integration;
@@ -206,5 +210,16 @@ mod tests {
         let row =
             Row::of(Route::Dop853, 1e-3, &[answer(Some(1e-4)), answer(None), answer(Some(3e-4)), answer(Some(2e-4))]);
         assert_eq!((row.found, row.median, row.largest, row.multiplications), (3, 2.5e-4, 1.0, 12));
+    }
+
+    #[test]
+    fn all_code_is_declared() {
+        let kinds = [Spin::COUNTED, Spin::TIMED, SerretAndoyer::COUNTED, SerretAndoyer::TIMED];
+        for kind in kinds.into_iter().chain([RotationGroup::COUNTED, RotationGroup::TIMED, &quantities::KIND]) {
+            let missing = undeclared(kind).unwrap();
+            // A body is read with the rules of configs beside it; its numbers stand in the key themselves.
+            let missing: Vec<_> = missing.iter().filter(|(_, to)| !to.starts_with("contract/config")).collect();
+            assert!(missing.is_empty(), "{}: {missing:?}", kind.name);
+        }
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Methods are compared at equal *achieved* error, never at equal request: one may give more digits than it is asked for. Between two requests the
 //! logarithm of the work is interpolated linearly in the logarithm of the largest error. The order seen is minus the slope of the
-//! logarithm of the median error over that of the work, by least squares. All of it is arithmetic on counts and errors of a table.
+//! logarithm of the median error over that of the number of steps, by least squares: part of the work does not grow with accuracy. All of it is arithmetic on counts and errors of a table.
 
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
@@ -36,19 +36,20 @@ pub struct CostOfAccuracyQuantities {
     pub equal_error: f64,
 }
 
-/// One method's rows: request, median and largest error, multiplications per start.
+/// One method's rows: request, median and largest error, multiplications and steps per start.
 struct Method {
     name: String,
-    rows: Vec<[f64; 4]>,
+    rows: Vec<[f64; 5]>,
 }
 
 fn methods(table: &Table) -> Result<Vec<Method>, TableError> {
     let (names, asked) = (table.texts("method")?, table.f64s("asked")?);
     let (median, largest) = (table.f64s("median_error")?, table.f64s("largest_error")?);
-    let (work, starts) = (table.numbers("multiplications")?, table.numbers("starts")?);
+    let (work, steps) = (table.numbers("multiplications")?, table.numbers("steps")?);
+    let starts = table.numbers("starts")?;
     let mut methods: Vec<Method> = Vec::new();
     for i in 0..table.rows() {
-        let row = [asked[i], median[i], largest[i], work[i] / starts[i]];
+        let row = [asked[i], median[i], largest[i], work[i] / starts[i], steps[i] / starts[i]];
         match methods.last_mut().filter(|method| method.name == names[i]) {
             Some(method) => method.rows.push(row),
             None => methods.push(Method { name: names[i].clone(), rows: vec![row] }),
@@ -70,12 +71,12 @@ impl Method {
     /// The order seen.
     fn order(&self) -> Option<f64> {
         let seen = self.rows.iter().filter(|row| (ORDER_TO..=ORDER_FROM).contains(&row[1]));
-        let points: Vec<[f64; 2]> = seen.map(|row| [libm::log(row[3]), libm::log(row[1])]).collect();
+        let points: Vec<[f64; 2]> = seen.map(|row| [libm::log(row[4]), libm::log(row[1])]).collect();
         let count = points.len() as f64;
         let mean = |i: usize| points.iter().map(|point| point[i]).sum::<f64>() / count;
-        let (work, error) = (mean(0), mean(1));
-        let product = |i: usize, of: f64| points.iter().map(|point| (point[0] - work) * (point[i] - of)).sum::<f64>();
-        let spread = product(0, work);
+        let (steps, error) = (mean(0), mean(1));
+        let product = |i: usize, of: f64| points.iter().map(|point| (point[0] - steps) * (point[i] - of)).sum::<f64>();
+        let spread = product(0, steps);
         (points.len() >= FEWEST && spread > 0.0).then(|| -product(1, error) / spread)
     }
 }
@@ -94,7 +95,7 @@ impl Compute for CostOfAccuracyQuantities {
         let route = "counted, against double-double";
         for method in &methods {
             let name = method.name.replace('-', "_");
-            if let Some([asked, _, largest, work]) = method.rows.last().copied() {
+            if let Some([asked, _, largest, work, _]) = method.rows.last().copied() {
                 let meaning = format!("largest relative error of {}, asked for {asked:e}", method.name);
                 quantities.add(&format!("{name}_error"), (largest, apart), "1", &meaning, route);
                 if method.rows.len() == 1 {
@@ -113,7 +114,8 @@ impl Compute for CostOfAccuracyQuantities {
             if !name.starts_with("taylor")
                 && let Some(order) = method.order()
             {
-                let meaning = format!("power of the work with which the median error of {} falls", method.name);
+                let meaning =
+                    format!("power of the number of steps with which the median error of {} falls", method.name);
                 quantities.add(&format!("{name}_order"), (order, ROUNDING * order), "1", &meaning, route);
             }
         }
@@ -127,18 +129,19 @@ impl Compute for CostOfAccuracyQuantities {
 mod tests {
     use super::*;
 
-    /// Oracle: a method whose error is work to the power −8 exactly, in powers of ten.
+    /// Oracle: a method whose error is steps to the power −8 exactly, ten multiplications each, in powers of ten.
     #[test]
     fn orders_and_work_between_requests_are_those_of_a_power_law() {
         let row = |n: i32| {
             let error = libm::pow(10.0, f64::from(-n));
-            [error, 0.5 * error, error, libm::pow(error, -0.125)]
+            let steps = libm::pow(error, -0.125);
+            [error, 0.5 * error, error, 10.0 * steps, steps]
         };
         let method = Method { name: "power".to_owned(), rows: (3..=15).map(row).collect() };
         assert!((method.order().unwrap() - 8.0).abs() < 1e-12);
         // Between 1e-9 and 1e-10, in the middle of the logarithms.
         let error = libm::pow(10.0, -9.5);
-        assert!((method.work_at(error).unwrap() / libm::pow(error, -0.125) - 1.0).abs() < 1e-13);
+        assert!((method.work_at(error).unwrap() / (10.0 * libm::pow(error, -0.125)) - 1.0).abs() < 1e-13);
         assert!(method.work_at(0.1).is_none() && method.work_at(1e-17).is_none());
         let short = Method { name: "power".to_owned(), rows: (3..=7).map(row).collect() };
         assert!(short.order().is_none());
