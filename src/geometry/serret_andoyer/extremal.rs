@@ -239,8 +239,8 @@ impl<S: Real> Origin<S> {
 impl<S: Real> Extremal<S> {
     /// The extremal of a metric from a start.
     ///
-    /// Guarantee: parameters to a few ε of the inputs as given, except `1 − ξ1` from momenta or `p_θ`, whose cancellation near
-    /// the separatrix is the problem's own (give `delta` there). Errors: [`StartError`]. `p_θ` above `√μ(φ0)` by no more than the
+    /// Guarantee: parameters to a few ε of the inputs as given (the energies of `p_θ` and `delta` are rounded once), except `1 − ξ1` from momenta, whose
+    /// cancellation near the separatrix is the problem's own (give `delta` there, or ask `reference.rs`). Errors: [`StartError`]. `p_θ` above `√μ(φ0)` by no more than the
     /// rounding of both counts as equal.
     pub fn new(metric: &Metric<S>, start: Start<S>) -> Result<Self, StartError> {
         Ok(Self::assemble(metric, &Origin::new(metric, start, &mut Memory::default())?))
