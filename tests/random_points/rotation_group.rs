@@ -337,7 +337,7 @@ fn edges_of_the_format_do_no_harm() {
         1.0,
         1.0000000000000002,
         -2.0,
-        3.141592653589793,
+        std::f64::consts::PI,
         1e8,
         1e17,
         1e160,
