@@ -4,6 +4,8 @@
 //! Oracle: the closed form in double-double (where it does not reach, the integration in double-double) on the inputs as given. A
 //! part of the points is integrated in double-double as well, which shares no formula with the closed form; a few once more by the attitude.
 
+#![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
+
 use polhode::effects::point::{Answer, Given, Inputs, Metric as Asked, PointError, answer};
 use polhode::geometry::rotation_group::attitude_route::first_conjugate_times_by_attitude;
 use polhode::geometry::rotation_group::conjugate::first_conjugate_times;
@@ -68,7 +70,7 @@ impl Random {
                 axis[self.below(3)] = self.sign();
                 axis
             }
-            3 | 4 | 5 => {
+            3..=5 => {
                 let (axis, common, alike) = (self.below(3), self.log(1e-15, 1.0), self.unit() < 0.5);
                 [0, 1, 2].map(|i| {
                     let off = if alike { common } else { self.log(1e-15, 1.0) } * (0.3 + self.unit());
@@ -335,7 +337,7 @@ fn edges_of_the_format_do_no_harm() {
         1.0,
         1.0000000000000002,
         -2.0,
-        3.141592653589793,
+        std::f64::consts::PI,
         1e8,
         1e17,
         1e160,
