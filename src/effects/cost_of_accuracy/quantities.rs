@@ -21,9 +21,10 @@ pub const KIND: Kind = Kind {
 /// The input: a table of achieved errors.
 pub const INPUT: &str = "cost-of-accuracy";
 
-/// Errors between which orders are seen: the first term of the error leads, and rounding does not.
-const ORDER_FROM: f64 = 1e-5;
-const ORDER_TO: f64 = 1e-13;
+/// Errors between which orders are seen: above, steps are a large part of the solution's own scale, and the first term of the error does not lead;
+/// below, rounding does.
+const ORDER_FROM: f64 = 1e-8;
+const ORDER_TO: f64 = 1e-15;
 /// Fewest requests between these for an order.
 const FEWEST: usize = 4;
 /// Rounding of logarithms and of what is made of them, relatively.
