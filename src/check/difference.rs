@@ -9,9 +9,20 @@
 use crate::contract::value::NamedValue;
 use crate::table::{Data, Table};
 
-/// What the names of columns and values contain that are no results.
-pub const NO_RESULTS: [&str; 8] =
-    ["error", "difference", "allowed", "residual", "distance", "gap", "round_trip", "curvature_by_differences_at_zero"];
+/// What the names of columns and values contain that are no results: errors and differences, what rounding left out (`k_rest`), what vanishes but for
+/// rounding, and the θ of a cusp, which has no value at the k where the cusp is a pole.
+pub const NO_RESULTS: [&str; 10] = [
+    "error",
+    "difference",
+    "allowed",
+    "residual",
+    "distance",
+    "gap",
+    "round_trip",
+    "curvature_by_differences_at_zero",
+    "k_rest",
+    "cusp_theta",
+];
 
 /// The largest difference, and where it is.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -311,13 +311,17 @@ fn as_text(name: &str, measured: &[Measured], machine: &str) -> String {
         let Differences { values, absolute, relative, not_comparable, tables_compared, .. } = &found.differences;
         let _ = writeln!(
             text,
-            "{}: values most in {}; tables most in {} ({} absolute in {}); {tables_compared} tables compared row by row, {} not",
+            "{}: values most in {}; tables most in {} ({} absolute in {}); {tables_compared} tables compared row by row, {} not; moved: {}",
             found.level,
             or_none(&values.place),
             or_none(&relative.place),
             size(absolute),
             or_none(&absolute.place),
-            not_comparable.len()
+            not_comparable.len(),
+            found
+                .moved
+                .as_ref()
+                .map_or("nothing".to_owned(), |(path, moved)| format!("{} of {path}", or_none(&moved.group)))
         );
     }
     for found in measured {
