@@ -1,8 +1,11 @@
 //! The article's statements, each with the check that decides it.
 
 pub mod left_invariant;
+pub mod spin_closed_form;
+pub mod spin_closed_form_regimes;
 pub mod spin_curvature;
 pub mod spin_integrability;
+pub mod spin_limits;
 pub mod spin_metric;
 pub mod spin_parametrisation;
 pub mod spin_pendulum;
