@@ -84,7 +84,7 @@ impl Top {
 pub(super) fn moments(samples: &mut Samples, index: usize) -> [Wide; 2] {
     let small = wide(samples.log(0.1, 10.0));
     let large = small * (Wide::ONE + wide(samples.log(1e-6, 100.0)));
-    if index % 2 == 0 { [small, large] } else { [large, small] }
+    if index.is_multiple_of(2) { [small, large] } else { [large, small] }
 }
 
 const RATE: Statement = Statement {
