@@ -7,11 +7,12 @@
 //! follows for conjugate times, against integration, in `spin_conjugate_times`.
 
 use super::spin_points::{ALGEBRA, POINTS, QUOTIENT, Wide, anisotropy, cross, dot, reason, slopes, wide};
-use super::statement::{Form, Samples, Shape, Statement, Worst};
+use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst};
+use crate::contract::claim::Test;
 use crate::numerics::real::Real;
 
 /// The statements.
-pub const ALL: &[Statement] = &[BETA, NODE_ANGLE, SCALAR, PHASE_RATE];
+pub const ALL: &[Statement] = &[BETA, NODE_ANGLE, SCALAR, PHASE_RATE, ANY_START];
 
 const PLACE: &str = "beyond the article, section 4.3";
 
@@ -236,6 +237,62 @@ const PHASE_RATE: Statement = Statement {
     },
     note: "Hence: the first conjugate time is the only solution of Θ = π, zeros of the Jacobi field are simple, or triple where δβ = 0 with λ = nπ, and never double.",
 };
+
+const ANY_START: Statement = Statement {
+    id: "spin_phase_for_any_start",
+    place: PLACE,
+    says: "For every start r0, and every kinetic energy H = Σ h_i²/(2 I_i) with some I_i infinite or none: the angle Θ of r from δh in the plane across h has \
+           Θ' = G δh·δω/|δh⊥|² ≥ 0 (ω = ∂H/∂h, δH = 0), so that conjugate times are counted by a monotone phase there too.",
+    method: "the derivative of the angle by difference quotients along r' = ω × r, h' = ω × h, δh' = ω × δh + δω × h, at random r, h, δh and moments",
+    shape: Shape::Direct,
+    forms: &["derived here", "for variations with δH ≠ 0", "G²", "h·δω in the place of δh·δω"],
+    examine: any_start,
+    note: "",
+};
+
+fn any_start(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(513), Worst::default());
+    for index in 0..POINTS {
+        // Inverse moments; one of them 0 in every other case, as for the spins.
+        let mut inverse: [Wide; 3] = std::array::from_fn(|_| wide(samples.log(0.05, 20.0)));
+        if index.is_multiple_of(2) {
+            inverse[1] = Wide::ZERO;
+        }
+        let mut vector = || -> [Wide; 3] { std::array::from_fn(|_| wide(samples.even(-1.0, 1.0))) };
+        let (h, any, variation) = (vector(), vector(), vector());
+        let omega = |h: [Wide; 3]| -> [Wide; 3] { std::array::from_fn(|i| inverse[i] * h[i]) };
+        let (w, g2) = (omega(h), dot(h, h));
+        let r = cross(h, any);
+        let excess = dot(w, variation) / dot(w, w);
+        let delta: [Wide; 3] =
+            if form == 1 { variation } else { std::array::from_fn(|i| variation[i] - excess * w[i]) };
+        let (turning, twisted) = (cross(w, delta), cross(omega(delta), h));
+        let (r_rate, h_rate) = (cross(w, r), cross(w, h));
+        let moved =
+            |x: [Wide; 3], rate: [Wide; 3], s: Wide| -> [Wide; 3] { std::array::from_fn(|i| x[i] + s * rate[i]) };
+        // Sine and cosine, times positive factors, of the angle from δh to r about h.
+        let pair = |s: Wide| {
+            let (r, h) = (moved(r, r_rate, s), moved(h, h_rate, s));
+            let delta = moved(delta, std::array::from_fn(|i| turning[i] + twisted[i]), s);
+            let along = dot(delta, h) / dot(h, h);
+            let across: [Wide; 3] = std::array::from_fn(|i| delta[i] - along * h[i]);
+            (dot(cross(across, r), h) / dot(h, h).sqrt(), dot(across, r))
+        };
+        let (sine, cosine) = pair(Wide::ZERO);
+        let turned = |s: Wide| {
+            let (s1, c1) = pair(s);
+            [(s1 * cosine - c1 * sine).atan2(c1 * cosine + s1 * sine)]
+        };
+        let across2 = dot(delta, delta) - dot(delta, h).squared() / g2;
+        let product = dot(if form == 3 { h } else { delta }, omega(delta));
+        let length = if form == 2 { g2 } else { g2.sqrt() };
+        let expected = length * product / across2;
+        let size = expected.abs() + dot(w, w).sqrt();
+        worst.see(((slopes(turned, Wide::ZERO)[0] - expected) / size).to_f64());
+        worst.see(expected.min(Wide::ZERO).to_f64());
+    }
+    Ok(worst.at_most(QUOTIENT, reason(QUOTIENT)))
+}
 
 #[cfg(test)]
 mod tests {
