@@ -399,7 +399,7 @@ pub const ALL: &[Statement] = &[
             "cn and sn exchanged",
         ],
         examine: |form| alpha(RotatingAbove, [4, 0, 1, 2, 3][form.min(4)]),
-        note: "The other three cases give m itself; here a square stands, as if m were the modulus, which Π and ω̄ = ω/√m contradict.",
+        note: "The other three cases give m itself; here, in the text at hand, a square stands, as if m were the modulus, which Π and ω̄ = ω/√m contradict.",
     },
     direct(
         "spin_rotating_above_phi1",

@@ -9,7 +9,8 @@ use crate::contract::claim::Test;
 use crate::numerics::real::Real;
 
 /// The statements.
-pub const ALL: &[Statement] = &[BLOCH, REDUCTION, ALPHA_IS_FREE, CONTROLS, COST, SAME_LETTER, EXCHANGE];
+pub const ALL: &[Statement] =
+    &[STEP_OF_TRANSFER, BLOCH, REDUCTION, ALPHA_IS_FREE, CONTROLS, COST, SAME_LETTER, EXCHANGE];
 
 /// Pauli matrices on three spins, 0 for the identity, 1, 2, 3 for x, y, z.
 type Strings = [usize; 3];
@@ -29,6 +30,19 @@ fn commutator(p: Strings, q: Strings) -> (f64, Strings) {
     let imaginary = [0.0, 1.0, 0.0, -1.0][phase % 4];
     (-2.0 * imaginary, product)
 }
+
+const STEP_OF_TRANSFER: Statement = Statement {
+    id: "spin_step_of_transfer",
+    place: "section 4.1",
+    says: "The transfer from I1x to 4 I1y I2y I3z in minimum time is an intermediate step of the fastest transfer of I1x to I3x.",
+    method: "none",
+    shape: Shape::NotChecked {
+        reason: "quoted from [28]; the whole transfer on three spins is not posed in the article",
+    },
+    forms: &[],
+    examine: |_| Err(Unexamined("the whole transfer is not posed in the article".to_owned())),
+    note: "",
+};
 
 const BLOCH: Statement = Statement {
     id: "spin_system_25",
