@@ -167,7 +167,7 @@ pub struct Answer {
 pub fn answer(metric: Metric, given: &Inputs, relative_error: f64) -> Result<Answer, PointError> {
     let reader = Reader::new(metric, given)?;
     if relative_error < ARTICLE {
-        return reference::answer(&reader, relative_error);
+        return reference::answer(&reader);
     }
     match metric {
         Metric::SerretAndoyer => serret_andoyer::answer(&reader),
@@ -181,7 +181,7 @@ pub fn answers(metric: Metric, rows: &[Inputs], relative_error: f64) -> Vec<Resu
     let readers: Vec<Result<Reader<'_>, PointError>> = rows.iter().map(|given| Reader::new(metric, given)).collect();
     let good: Vec<Reader<'_>> = readers.iter().filter_map(|reader| reader.as_ref().ok()).copied().collect();
     let answers = match metric {
-        _ if relative_error < ARTICLE => good.iter().map(|reader| reference::answer(reader, relative_error)).collect(),
+        _ if relative_error < ARTICLE => good.iter().map(|reader| reference::answer(reader)).collect(),
         Metric::SerretAndoyer => serret_andoyer::answers(&good),
         Metric::Spin => spin::answers(&good),
         Metric::RotationGroup => good.iter().map(|reader| rotation_group::answer(reader, relative_error)).collect(),

@@ -158,7 +158,7 @@ fn errors_are_honest_at_random_points() {
     let (mut ratios, mut worst, mut integrated, mut routes) = (Vec::new(), (0.0, String::new()), 0, BTreeMap::new());
     for index in 0..count {
         let (given, start, inertia, momentum) = draw(&mut random);
-        let found = times(&given, answer(Asked::RotationGroup, &given, f64::EPSILON));
+        let found = times(&given, answer(Asked::RotationGroup, &given, 1e-14));
         let Some(start) = start else {
             assert!(found.is_none(), "{given:?}");
             impossible += 1;
@@ -278,7 +278,7 @@ fn limits_have_their_exact_answers() {
     ];
     for (text, exact) in cases {
         let given = given(text);
-        let (found, claimed, _) = times(&given, answer(Asked::RotationGroup, &given, f64::EPSILON)).expect(text);
+        let (found, claimed, _) = times(&given, answer(Asked::RotationGroup, &given, 1e-14)).expect(text);
         for i in 0..2 {
             let error = (found[i] / exact[i] - 1.0).abs();
             // The literals' own rounding, and that of 2π/….
@@ -309,16 +309,13 @@ fn impossible_inputs_are_refused_with_their_reason() {
         ("A=1 B=2 C=1048578 H1=1024 H2=512 H3=1", "separating polhode"),
     ] {
         let given = given(text);
-        match answer(Asked::RotationGroup, &given, f64::EPSILON) {
+        match answer(Asked::RotationGroup, &given, 1e-14) {
             Err(PointError::Refused(reason)) => assert!(reason.contains(word), "{text}: {reason}"),
             other => panic!("{text}: {other:?}"),
         }
     }
     for text in ["A=inf B=2 C=3 H1=1 H2=0 H3=0", "A=1 B=nan C=3 H1=1 H2=0 H3=0", "A=1 B=2 C=3 H1=1 H2=-inf H3=0"] {
-        assert!(
-            matches!(answer(Asked::RotationGroup, &given(text), f64::EPSILON), Err(PointError::Value { .. })),
-            "{text}"
-        );
+        assert!(matches!(answer(Asked::RotationGroup, &given(text), 1e-14), Err(PointError::Value { .. })), "{text}");
     }
 }
 
@@ -357,6 +354,6 @@ fn edges_of_the_format_do_no_harm() {
             if random.below(3) > 0 { 0.5 + random.unit() } else { edge }
         };
         let given: Inputs = keys.iter().map(|key| ((*key).to_owned(), Given::Number(value(&mut random)))).collect();
-        times(&given, answer(Asked::RotationGroup, &given, f64::EPSILON));
+        times(&given, answer(Asked::RotationGroup, &given, 1e-14));
     }
 }

@@ -8,6 +8,7 @@
 
 use super::family::{Case, Told, table};
 use super::rotation_group_naive::{cosines_in_the_chart, first_sign_change, printed_momentum};
+use crate::contract::accuracy::ARTICLE;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::effects::point::{self, Given};
@@ -302,7 +303,7 @@ impl Posed {
                 |(value, claimed)| (Told { value, claimed }, "closed form of the momentum".to_owned(), work),
             ));
         }
-        Ok(match point::answer(point::Metric::RotationGroup, &self.given(), f64::EPSILON) {
+        Ok(match point::answer(point::Metric::RotationGroup, &self.given(), ARTICLE) {
             Ok(answer) => match (answer.numbers.first().copied().flatten(), answer.error) {
                 (Some(value), Some(claimed)) => (Told { value, claimed }, answer.route, answer.work),
                 _ => nothing(answer.reason.unwrap_or_default()),

@@ -1,4 +1,5 @@
 use super::*;
+use crate::contract::accuracy::ARTICLE;
 use crate::effects::hard_cases::family::Verdict;
 
 fn cases(family: Family) -> Vec<Case> {
@@ -82,7 +83,7 @@ fn truth_and_answers_are_those_of_the_oracle() {
             time: None,
         };
         let truth = first_two_conjugate_times_to_reference(&posed.start().unwrap()).unwrap();
-        let answer = point::answer(point::Metric::RotationGroup, &posed.given(), f64::EPSILON).unwrap();
+        let answer = point::answer(point::Metric::RotationGroup, &posed.given(), ARTICLE).unwrap();
         for (i, key) in ["t1", "t2"].into_iter().enumerate() {
             let exact = decimal(point[key].as_str().unwrap());
             let off = |t: DoubleDouble| ((t - exact) / exact).to_f64().abs();

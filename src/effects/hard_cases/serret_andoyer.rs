@@ -8,6 +8,7 @@
 
 use super::family::{Case, Told, table};
 use super::serret_andoyer_naive::{Chart, Printed, by_integration};
+use crate::contract::accuracy::ARTICLE;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
 use crate::effects::point::{self, Given};
@@ -284,7 +285,7 @@ impl Posed {
             };
         }
         let index = if self.asked == Asked::ConjugateX { 1 } else { 0 };
-        match point::answer(point::Metric::SerretAndoyer, &self.given(), f64::EPSILON) {
+        match point::answer(point::Metric::SerretAndoyer, &self.given(), ARTICLE) {
             Ok(answer) => match (answer.numbers.get(index).copied().flatten(), answer.error) {
                 (Some(value), Some(error)) => {
                     // x' ≤ B p_x, and x ≥ A p_x t: an error of t1 is at most B/A times as large in x; and its own roundings.

@@ -47,6 +47,14 @@ fn told(((metric, start), point): ((Metric, Start), Result<ConjugatePoint, NoPoi
     written(long.map(rounded), CLOSED_FORM, LONG, calls)
 }
 
+/// The answer in double-double, rounded.
+pub(super) fn to_reference(reader: &Reader<'_>) -> Result<Answer, PointError> {
+    let (metric, start) = read(reader)?;
+    let long = first_conjugate_point_to_reference([metric.a(), metric.b(), metric.c()], start);
+    let calls = long.as_ref().map_or(0, |point| point.elliptic_calls);
+    written(long.map(rounded), CLOSED_FORM, ", in double-double arithmetic, rounded", calls)
+}
+
 /// Rounds to `f64`, which may be half an ε of the error.
 fn rounded(point: ConjugatePoint<DoubleDouble>) -> ConjugatePoint {
     let error = point.error.to_f64() + 0.5 * f64::EPSILON;
