@@ -1,3 +1,8 @@
 //! The article's statements, each with the check that decides it.
 
+pub mod bodies;
+pub mod euler_angles;
+pub mod euler_poinsot;
+pub mod pendulum;
+pub mod serret_andoyer_transformation;
 pub mod statement;
