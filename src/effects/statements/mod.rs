@@ -3,6 +3,7 @@
 pub mod bodies;
 pub mod euler_angles;
 pub mod euler_poinsot;
+pub mod parameterization;
 pub mod pendulum;
 pub mod serret_andoyer_transformation;
 pub mod statement;
