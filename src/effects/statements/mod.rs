@@ -1,6 +1,8 @@
 //! The article's statements, each with the check that decides it.
 
 pub mod bodies;
+pub mod conjugate_roots;
+pub mod conjugate_times;
 pub mod euler_angles;
 pub mod euler_poinsot;
 pub mod parameterization;
