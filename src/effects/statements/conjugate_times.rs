@@ -151,7 +151,7 @@ fn motion_and_phase(samples: &mut Samples) -> (Motion, Wide) {
 }
 
 fn determinant_of_place(form: Form) -> Result<Test, Unexamined> {
-    super::bodies::identity(605, 40, 1e-11, "error of a difference quotient of fourth order", |samples| {
+    super::bodies::identity(605, 100, 1e-11, "error of a difference quotient of fourth order", |samples| {
         let (motion, phase) = motion_and_phase(samples);
         let t = phase / motion.speed;
         let part = motion.cosine0 * motion.cosine0;
@@ -310,7 +310,7 @@ fn root_of_start(form: Form) -> Result<Test, Unexamined> {
 }
 
 fn whole_determinant(form: Form) -> Result<Test, Unexamined> {
-    super::bodies::identity(613, 40, 1e-11, "error of a difference quotient of fourth order", |samples| {
+    super::bodies::identity(613, 100, 1e-11, "error of a difference quotient of fourth order", |samples| {
         let (motion, phase) = motion_and_phase(samples);
         let (t, y0, p, p_y) = (phase / motion.speed, motion.y0(), motion.p, motion.p_y());
         let Body { a, b, c } = motion.body;

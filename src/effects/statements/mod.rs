@@ -3,9 +3,11 @@
 pub mod bodies;
 pub mod conjugate_roots;
 pub mod conjugate_times;
+pub mod darboux_form;
 pub mod euler_angles;
 pub mod euler_poinsot;
 pub mod parameterization;
 pub mod pendulum;
 pub mod serret_andoyer_transformation;
 pub mod statement;
+pub mod surfaces_of_revolution;

@@ -160,7 +160,7 @@ fn speed_m(form: Form) -> Result<Test, Unexamined> {
 }
 
 fn definitions(form: Form) -> Result<Test, Unexamined> {
-    super::bodies::identity(509, 60, 1e-14, "Gauss-Legendre with 12 panels of 10 points", |samples| {
+    super::bodies::identity(509, 100, 1e-14, "Gauss-Legendre with 12 panels of 10 points", |samples| {
         let (x, m) = (wide(samples.even(-1.4, 1.4)), wide(samples.even(0.01, 0.95)));
         let n = wide(samples.even(-2.0, 0.9));
         let used = if form == 1 { m * m } else { m };
