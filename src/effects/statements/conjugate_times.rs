@@ -261,7 +261,7 @@ fn zeros_of_sn(form: Form) -> Result<Test, Unexamined> {
 
 fn starts_at_rest(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut worst) = (Samples::new(610), Worst::default());
-    for _ in 0..60 {
+    for _ in 0..100 {
         let motion = Motion::ordinary(&mut samples);
         let y0 = motion.xi1.sqrt().atan2((Wide::ONE - motion.xi1).sqrt()).to_f64();
         let y0 = std::f64::consts::FRAC_PI_2 - y0;

@@ -107,7 +107,7 @@ fn inverse_cosine(form: Form) -> Result<Test, Unexamined> {
 fn sine_of_y(form: Form) -> Result<Test, Unexamined> {
     super::bodies::identity(805, 100, 1e-12, "Gauss-Legendre with 24 panels of ten points", |samples| {
         let body = Body::ordinary(samples);
-        let y = wide(samples.even(0.0, 3.14));
+        let y = wide(samples.even(0.0, 3.1));
         let j = jacobi(&body, phi_of(&body, y));
         let value = match form {
             1 => j.sn.abs(),
@@ -120,8 +120,9 @@ fn sine_of_y(form: Form) -> Result<Test, Unexamined> {
 
 fn mu_along_motion(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut worst) = (Samples::new(806), Worst::default());
-    for case in 0..80 {
-        let motion = if case % 2 == 0 { Motion::ordinary(&mut samples) } else { Motion::ordinary_rotating(&mut samples) };
+    for case in 0..100 {
+        let motion =
+            if case % 2 == 0 { Motion::ordinary(&mut samples) } else { Motion::ordinary_rotating(&mut samples) };
         let t = times_of(&motion, &mut samples, 3.0)[0];
         let y = wide(states(&motion, motion.p_y().to_f64(), &[t])?[0][1]);
         let phi = phi_of(&motion.body, y);
@@ -161,7 +162,11 @@ fn gauss_curvature(form: Form) -> Result<Test, Unexamined> {
         let step = wide(1e-5) * half_width(&body);
         let (near, far) = (root(phi + step) + root(phi - step), root(phi + step + step) + root(phi - step - step));
         let second = (wide(16.0) * near - far - wide(30.0) * root(phi)) / (wide(12.0) * step * step);
-        [-(second / root(phi)), curvature(&body, z_at(&body, phi), form), (body.b - body.a) * (body.c - body.a) / body.a]
+        [
+            -(second / root(phi)),
+            curvature(&body, z_at(&body, phi), form),
+            (body.b - body.a) * (body.c - body.a) / body.a,
+        ]
     })
 }
 
@@ -279,13 +284,23 @@ const CAPTION: &str = "Figure 1 and the text before it";
 /// The statements of this page.
 pub const ALL: &[Statement] = &[
     direct(
-        ["normal_form", PLACE, "dφ = dy/√(C − (A sin² y + B cos² y)), θ = x turn (8) into dφ² + μ dθ².", "lengths of random vectors"],
+        [
+            "normal_form",
+            PLACE,
+            "dφ = dy/√(C − (A sin² y + B cos² y)), θ = x turn (8) into dφ² + μ dθ².",
+            "lengths of random vectors",
+        ],
         &["as printed", "without the root", "times the root"],
         normal_form,
         "",
     ),
     direct(
-        ["integral_of_x", PLACE, "With X = sin y: dφ = dX/√((C − A)(1 − X²)(k' + kX²)).", "dX/dy by difference quotients"],
+        [
+            "integral_of_x",
+            PLACE,
+            "With X = sin y: dφ = dX/√((C − A)(1 − X²)(k' + kX²)).",
+            "dX/dy by difference quotients",
+        ],
         &["as printed", "k' − kX²", "k and k' exchanged"],
         integral_of_x,
         "",
@@ -313,13 +328,23 @@ pub const ALL: &[Statement] = &[
         "",
     ),
     direct(
-        ["mu_of_phi", FIRST, "μ(φ) = (A cn²(αφ|k) + B sn²(αφ|k))⁻¹, between 1/B and 1/A.", "1/μ against A sin² y + B cos² y of integrated motions of both kinds, φ by quadrature"],
+        [
+            "mu_of_phi",
+            FIRST,
+            "μ(φ) = (A cn²(αφ|k) + B sn²(αφ|k))⁻¹, between 1/B and 1/A.",
+            "1/μ against A sin² y + B cos² y of integrated motions of both kinds, φ by quadrature",
+        ],
         &["as printed", "A and B exchanged", "not inverted", "dn for sn"],
         mu_along_motion,
         "The text at hand reads cos² and sin² for cn² and sn² in the line before.",
     ),
     direct(
-        ["gauss_curvature", "Proposition 3.21 ii", "G = (A + B + C)(z − z−)(z − z+)/z², z± = 2(AB + AC + BC ± √((AB + AC + BC)² − 3ABC(A + B + C)))/(A + B + C).", "−(√μ)''/√μ by difference quotients, any body"],
+        [
+            "gauss_curvature",
+            "Proposition 3.21 ii",
+            "G = (A + B + C)(z − z−)(z − z+)/z², z± = 2(AB + AC + BC ± √((AB + AC + BC)² − 3ABC(A + B + C)))/(A + B + C).",
+            "−(√μ)''/√μ by difference quotients, any body",
+        ],
         &["as printed", "2ABC under the root", "the sign", "z below"],
         gauss_curvature,
         "",
@@ -331,25 +356,45 @@ pub const ALL: &[Statement] = &[
         "",
     ),
     direct(
-        ["two_changes_of_sign", "after Proposition 3.21; Figure 1", "In |φ| < K/α the curvature changes sign at ±φ1 only, sn²(αφ1|k) = (z− − 2A)/(2(B − A)): it is positive in the gray stripe |φ| < φ1.", "sign of G at random φ, some close to the equator and to the edges"],
+        [
+            "two_changes_of_sign",
+            "after Proposition 3.21; Figure 1",
+            "In |φ| < K/α the curvature changes sign at ±φ1 only, sn²(αφ1|k) = (z− − 2A)/(2(B − A)): it is positive in the gray stripe |φ| < φ1.",
+            "sign of G at random φ, some close to the equator and to the edges",
+        ],
         &["as printed", "sn for sn²", "cn² for sn²"],
         two_changes_of_sign,
         "",
     ),
     direct(
-        ["curvature_along_motions", CAPTION, "G changes sign along every rotation; along an oscillating trajectory it is positive if it stays close enough to the equator, namely for 2h/p_x² ≤ z−/2.", "signs of G at the ends of the range of z"],
+        [
+            "curvature_along_motions",
+            CAPTION,
+            "G changes sign along every rotation; along an oscillating trajectory it is positive if it stays close enough to the equator, namely for 2h/p_x² ≤ z−/2.",
+            "signs of G at the ends of the range of z",
+        ],
         &["as printed, with the bound", "along no oscillating one", "B z−/(2A) for the bound"],
         curvature_along_motions,
         "The bound is not in the article: oscillating trajectories between it and the separatrix meet negative curvature too.",
     ),
     direct(
-        ["physical_range", CAPTION, "Motions of a body have p_θ ≥ C^(−1/2) at arc length; the smaller constants are geodesics only.", "|p_y| ≤ p_x at random φ, some constants within a thousandth of the bound"],
+        [
+            "physical_range",
+            CAPTION,
+            "Motions of a body have p_θ ≥ C^(−1/2) at arc length; the smaller constants are geodesics only.",
+            "|p_y| ≤ p_x at random φ, some constants within a thousandth of the bound",
+        ],
         &["as printed", "B for C", "below the bound", "1/C for the bound"],
         physical_range,
         "",
     ),
     direct(
-        ["horizontal_sector", CAPTION, "At every point the motions of a body lie in the sector around the parallel that the rotations about the minor axis, p_θ = C^(−1/2), bound.", "|dφ/dθ| at random points"],
+        [
+            "horizontal_sector",
+            CAPTION,
+            "At every point the motions of a body lie in the sector around the parallel that the rotations about the minor axis, p_θ = C^(−1/2), bound.",
+            "|dφ/dθ| at random points",
+        ],
         &["as printed", "the separatrices for the rotations", "outside the sector"],
         horizontal_sector,
         "",

@@ -205,7 +205,7 @@ fn proposition(motion: &Motion, t: Wide, form: Form) -> [Wide; 2] {
 
 fn by_integration(form: Form, rotating: bool, component: usize) -> Result<Test, Unexamined> {
     let (mut samples, mut worst) = (Samples::new(510), Worst::default());
-    for _ in 0..60 {
+    for _ in 0..100 {
         let motion = if rotating { Motion::ordinary_rotating(&mut samples) } else { Motion::ordinary(&mut samples) };
         let mut times = times_of(&motion, &mut samples, 7.0);
         times.sort_by(f64::total_cmp);

@@ -70,7 +70,8 @@ impl Surface {
     /// `[φ, p_φ, θ, δφ, δp_φ, δθ]` after a time, from the equator upwards.
     fn after(&self, from: &[f64; 6], span: f64) -> Result<[f64; 6], Unexamined> {
         let flow = ByRate::new(*self);
-        let arrival = integrate(Dop853, &flow, from, (0.0, span), &Settings::new(1e-14), &mut ()).map_err(unexamined)?;
+        let arrival =
+            integrate(Dop853, &flow, from, (0.0, span), &Settings::new(1e-14), &mut ()).map_err(unexamined)?;
         Ok(arrival.state)
     }
 
@@ -230,7 +231,10 @@ fn gauss_curvature(form: Form) -> Result<Test, Unexamined> {
         let value = match form {
             1 => second / radius(u),
             2 => -second,
-            3 => -(slope(|u| slope(|u| radius(u) * radius(u), u, 1e-4) / stretch(u), u, 1e-4) / stretch(u)) / (radius(u) * radius(u)),
+            3 => {
+                -(slope(|u| slope(|u| radius(u) * radius(u), u, 1e-4) / stretch(u), u, 1e-4) / stretch(u))
+                    / (radius(u) * radius(u))
+            }
             _ => -(second / radius(u)),
         };
         [truth, value, wide(0.1)]
@@ -279,7 +283,7 @@ fn collinearity(form: Form) -> Result<Test, Unexamined> {
 
 fn no_point_while_ascending(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut cases) = (Samples::new(909), Cases::default());
-    for case in 0..60 {
+    for case in 0..100 {
         let surface = if case % 2 == 0 { Surface::tame(&mut samples) } else { Surface::hard(&mut samples) };
         let part = match form {
             1 => 0.75,
@@ -293,7 +297,7 @@ fn no_point_while_ascending(form: Form) -> Result<Test, Unexamined> {
 
 fn tame_flow(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut cases) = (Samples::new(910), Cases::default());
-    for _ in 0..60 {
+    for _ in 0..100 {
         let surface = if form == 1 { Surface::hard(&mut samples) } else { Surface::tame(&mut samples) };
         let p = wide(surface.p);
         let falls = slope(|p| surface.returns(p)[1], p, 1e-5) < Wide::ZERO;
@@ -337,7 +341,7 @@ fn slopes_of_both(form: Form) -> Result<Test, Unexamined> {
 
 fn equator_point(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut cases) = (Samples::new(913), Cases::default());
-    for case in 0..60 {
+    for case in 0..100 {
         let mut surface = Surface::tame(&mut samples);
         // G(0) = a, the largest value on these surfaces. On the equator, p_θ = 1 and p_φ = 0, δφ starts with δp_φ.
         let time = match form {
@@ -359,7 +363,7 @@ fn equator_point(form: Form) -> Result<Test, Unexamined> {
 
 fn equation_24(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut worst) = (Samples::new(914), Worst::default());
-    for _ in 0..60 {
+    for _ in 0..100 {
         let surface = Surface::tame(&mut samples);
         let (period, p) = (surface.period(), wide(surface.p));
         let middle = surface.after(&surface.start(), period / 2.0)?;
@@ -416,7 +420,12 @@ pub const ALL: &[Statement] = &[
         note: "The other equations of (21) are right.",
     },
     direct(
-        ["slope_22", "eq. (22)", "At arc length dθ/dφ = p_θ/(√μ √(μ − p_θ²)) on the ascending branch.", "difference quotients of H"],
+        [
+            "slope_22",
+            "eq. (22)",
+            "At arc length dθ/dφ = p_θ/(√μ √(μ − p_θ²)) on the ascending branch.",
+            "difference quotients of H",
+        ],
         &["as printed", "μ + p_θ²", "without √μ"],
         slope_22,
         "The text at hand writes g(φ, θ) for g(φ, p_θ) before it.",
@@ -432,7 +441,12 @@ pub const ALL: &[Statement] = &[
         note: "Lemma 3.14 and Definition 3.15 have the root.",
     },
     direct(
-        ["parallels", PLACE, "φ(t) = φ0 with p_φ = 0 is a solution if and only if μ'(φ0) = 0.", "p_φ' at and beside critical points of μ"],
+        [
+            "parallels",
+            PLACE,
+            "φ(t) = φ0 with p_φ = 0 is a solution if and only if μ'(φ0) = 0.",
+            "p_φ' at and beside critical points of μ",
+        ],
         &["as printed", "at φ = 0", "where μ' ≠ 0"],
         parallels,
         "",
@@ -451,7 +465,12 @@ pub const ALL: &[Statement] = &[
         note: "",
     },
     direct(
-        ["poincare_commutator", PLACE, "[H⃗, V] = −H⃗ for V = p ∂_p, so that P(t) = V + tH⃗.", "difference quotients; [X, Y] = DY·X − DX·Y"],
+        [
+            "poincare_commutator",
+            PLACE,
+            "[H⃗, V] = −H⃗ for V = p ∂_p, so that P(t) = V + tH⃗.",
+            "difference quotients; [X, Y] = DY·X − DX·Y",
+        ],
         &["as printed", "the sign", "twice that"],
         euler_field,
         "",
@@ -463,7 +482,12 @@ pub const ALL: &[Statement] = &[
         "",
     ),
     direct(
-        ["collinearity", "eq. (23), Lemma 3.13", "p_φ ∂φ/∂p_θ + p_θ ∂θ/∂p_θ = 0 for all t, at a fixed energy.", SURFACES],
+        [
+            "collinearity",
+            "eq. (23), Lemma 3.13",
+            "p_φ ∂φ/∂p_θ + p_θ ∂θ/∂p_θ = 0 for all t, at a fixed energy.",
+            SURFACES,
+        ],
         &["as printed", "a sign", "p_φ and p_θ exchanged"],
         collinearity,
         "So a point is conjugate as soon as ∂φ/∂p_θ = 0, where p_θ ≠ 0.",
@@ -475,7 +499,12 @@ pub const ALL: &[Statement] = &[
         "",
     ),
     direct(
-        ["period_and_first_return", "Definition 3.15", "T/4 = ∫ g dφ and Δθ = 2 ∫ f dφ from 0 to φ+; the equator is met again at T/2.", SURFACES],
+        [
+            "period_and_first_return",
+            "Definition 3.15",
+            "T/4 = ∫ g dφ and Δθ = 2 ∫ f dφ from 0 to φ+; the equator is met again at T/2.",
+            SURFACES,
+        ],
         &["as printed", "T for T/2", "4 ∫ f"],
         period_and_return,
         "",
@@ -487,25 +516,45 @@ pub const ALL: &[Statement] = &[
         "",
     ),
     direct(
-        ["gauss_curvature_formula", PLACE, "G = −(√μ)''/√μ.", "product of the principal curvatures of tori and ellipsoids in space"],
+        [
+            "gauss_curvature_formula",
+            PLACE,
+            "G = −(√μ)''/√μ.",
+            "product of the principal curvatures of tori and ellipsoids in space",
+        ],
         &["as printed", "the sign", "without 1/√μ", "μ for √μ"],
         gauss_curvature,
         "",
     ),
     direct(
-        ["equator_point", "Lemma 3.18", "If G(0) = max G > 0, the first conjugate time on the equator is π/√G(0), and no geodesic from there has an earlier one.", SURFACES],
+        [
+            "equator_point",
+            "Lemma 3.18",
+            "If G(0) = max G > 0, the first conjugate time on the equator is π/√G(0), and no geodesic from there has an earlier one.",
+            SURFACES,
+        ],
         &["as printed", "π/G(0)", "2π/√G(0)"],
         equator_point,
         "",
     ),
     direct(
-        ["equation_24", "eq. (24), Lemma 3.19", "The conjugate time in (T/2, 3T/4) solves Δθ'(p_θ) + ∫ ∂f/∂p_θ dζ = 0, from φ to 0.", "conjugate times of integrated variations"],
+        [
+            "equation_24",
+            "eq. (24), Lemma 3.19",
+            "The conjugate time in (T/2, 3T/4) solves Δθ'(p_θ) + ∫ ∂f/∂p_θ dζ = 0, from φ to 0.",
+            "conjugate times of integrated variations",
+        ],
         &["as printed", "a sign", "an exponent of ∂f/∂p_θ", "half of Δθ'"],
         equation_24,
         "",
     ),
     direct(
-        ["slopes_of_return_and_period", "Lemma 3.20", "R'(p_θ) = T'(p_θ)/(2 p_θ).", "difference quotients of both integrals, tame and other surfaces"],
+        [
+            "slopes_of_return_and_period",
+            "Lemma 3.20",
+            "R'(p_θ) = T'(p_θ)/(2 p_θ).",
+            "difference quotients of both integrals, tame and other surfaces",
+        ],
         &["as printed", "without the two", "p_θ above", "the sign"],
         slopes_of_both,
         "",
