@@ -11,13 +11,33 @@ use serde::Serialize;
 
 /// The groups: a name, and the statements of one file.
 pub const GROUPS: &[(&str, &[Statement])] = &[
+    ("euler-poinsot", super::euler_poinsot::ALL),
+    ("euler-angles", super::euler_angles::ALL),
+    ("serret-andoyer-transformation", super::serret_andoyer_transformation::ALL),
+    ("pendulum", super::pendulum::ALL),
+    ("parameterization", super::parameterization::ALL),
+    ("conjugate-times", super::conjugate_times::ALL),
+    ("conjugate-roots", super::conjugate_roots::ALL),
+    ("surfaces-of-revolution", super::surfaces_of_revolution::ALL),
+    ("darboux-form", super::darboux_form::ALL),
+    ("first-return", super::first_return::ALL),
+    ("conjugate-locus", super::conjugate_locus::ALL),
+    ("spin-system", super::spin_system::ALL),
+    ("spin-metric", super::spin_metric::ALL),
     ("left-invariant", super::left_invariant::ALL),
     ("spin-curvature", super::spin_curvature::ALL),
-    ("spin-integrability", super::spin_integrability::ALL),
-    ("spin-metric", super::spin_metric::ALL),
-    ("spin-parametrisation", super::spin_parametrisation::ALL),
+    ("spin-fronts", super::spin_fronts::ALL),
     ("spin-pendulum", super::spin_pendulum::ALL),
-    ("spin-system", super::spin_system::ALL),
+    ("spin-pendulum-energy", super::spin_pendulum_energy::ALL),
+    ("spin-parametrisation", super::spin_parametrisation::ALL),
+    ("spin-integrability", super::spin_integrability::ALL),
+    ("spin-closed-form", super::spin_closed_form::ALL),
+    ("spin-conjugate-times", super::spin_conjugate_times::ALL),
+    ("spin-closed-form-regimes", super::spin_closed_form_regimes::ALL),
+    ("spin-closed-form-special", super::spin_closed_form_special::ALL),
+    ("spin-limits", super::spin_limits::ALL),
+    ("spin-switch-points", super::spin_switch_points::ALL),
+    ("spin-trajectories", super::spin_trajectories::ALL),
 ];
 
 /// The kind.

@@ -1,7 +1,18 @@
 //! The article's statements, each with the check that decides it.
 
+pub mod bodies;
+pub mod conjugate_locus;
+pub mod conjugate_roots;
+pub mod conjugate_times;
+pub mod darboux_form;
+pub mod euler_angles;
+pub mod euler_poinsot;
+pub mod first_return;
 pub mod group;
 pub mod left_invariant;
+pub mod parameterization;
+pub mod pendulum;
+pub mod serret_andoyer_transformation;
 pub mod spin_closed_form;
 pub mod spin_closed_form_regimes;
 pub mod spin_closed_form_special;
@@ -19,3 +30,4 @@ pub mod spin_switch_points;
 pub mod spin_system;
 pub mod spin_trajectories;
 pub mod statement;
+pub mod surfaces_of_revolution;

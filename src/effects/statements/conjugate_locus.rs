@@ -1,0 +1,469 @@
+//! Statements of section 3.3.3 on the conjugate locus: Theorem 3.24 and its proof, Remark 3.25.
+//!
+//! At arc length, `2h = 1`. Integrals over φ are taken over `y`, `dφ = dy/√(C − Z)`; conjugate points are zeros of the integrated variation of
+//! (9), or, where they are differentiated by `p_θ`, the closed form of the `geometry` room in double-double.
+
+use super::bodies::{Body, Motion, Wide, direct, exact, identity, integral, slope, unit, wide};
+use super::darboux_form::{body_and_phi, jacobi, z_at};
+use super::first_return::{body_and_clairaut, constants, first_return, motion, step_of};
+use super::pendulum::states;
+use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
+use crate::contract::claim::Test;
+use crate::geometry::serret_andoyer::flow::first_conjugate_time_by_integration;
+use crate::geometry::serret_andoyer::{Branch, Clairaut, Extremal, Metric, Start, first_conjugate_point};
+use crate::numerics::elliptic::jacobi::Jacobi;
+use crate::numerics::elliptic::mean::complete_k;
+use crate::numerics::real::Real;
+
+/// `f`, `∂f/∂p_θ`, `∂²f/∂p_θ²` where `μ` is `1/Z`.
+fn f(z: Wide, p: Wide) -> [Wide; 3] {
+    let rest = Wide::ONE - p * p * z;
+    let root = rest.sqrt();
+    [p * z / root, z / (rest * root), wide(3.0) * p * z * z / (rest * rest * root)]
+}
+
+/// The integral of one of these over φ, between two y short of the turning points.
+///
+/// With `sin a = −cos y = √ξ1 tanh u` the root `1 − p_θ² Z = p_θ² (B − A) ξ1/cosh² u` is no singularity any more.
+fn over_phi(body: &Body, p: Wide, which: usize, from: Wide, to: Wide) -> Wide {
+    let Body { a, b, c } = *body;
+    let (one, gain) = (Wide::ONE, ((one_over_square(p) - a) / (b - a)).sqrt());
+    let u_of = |y: Wide| {
+        let x = -(y.cos() / gain);
+        ((one + x) / (one - x)).ln() / wide(2.0)
+    };
+    let along = |u: Wide| {
+        let tanh = u.tanh();
+        let (sine, sech_squared) = (gain * tanh, (one - tanh) * (one + tanh));
+        let z = a + (b - a) * sine * sine;
+        // dy = √ξ1/(cosh² u cos a) du.
+        let dy = gain * sech_squared / ((one - sine) * (one + sine)).sqrt();
+        let root = p * gain * ((b - a) * sech_squared).sqrt();
+        let value = match which {
+            0 => p * z / root,
+            1 => z / (root * root * root),
+            _ => wide(3.0) * p * z * z / (root * root * root * root * root),
+        };
+        value * dy / (c - z).sqrt()
+    };
+    integral(along, u_of(from), u_of(to), 8)
+}
+
+fn one_over_square(p: Wide) -> Wide {
+    Wide::ONE / (p * p)
+}
+
+fn slopes_of_f(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(1008), Worst::default());
+    for _ in 0..100 {
+        let (body, phi) = body_and_phi(&mut samples);
+        let mu = Wide::ONE / z_at(&body, phi);
+        let p = wide(samples.even(0.05, 0.95)) * mu.sqrt();
+        let f_at = |p: Wide| p / (mu.sqrt() * (mu - p * p).sqrt());
+        let step = 1e-5 * p.to_f64();
+        let first = slope(f_at, p, step);
+        let second = slope(|p| slope(f_at, p, step), p, step);
+        let rest = mu - p * p;
+        let (one, two) = match form {
+            1 => (-(mu.sqrt() / (rest * rest.sqrt())), second),
+            2 => (first, wide(3.0) * p * mu.sqrt() / (rest * rest.sqrt())),
+            _ => (mu.sqrt() / (rest * rest.sqrt()), wide(3.0) * p * mu.sqrt() / (rest * rest * rest.sqrt())),
+        };
+        super::bodies::see(&mut worst, [first, one, Wide::ZERO]);
+        super::bodies::see(&mut worst, [second, two, Wide::ZERO]);
+        worst.see(if first > Wide::ZERO && second > Wide::ZERO { 0.0 } else { 1.0 });
+    }
+    Ok(worst.at_most(1e-12, "error of difference quotients of fourth order"))
+}
+
+fn theta_by_phi(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(1009), Worst::default());
+    for _ in 0..100 {
+        let motion = motion(&mut samples);
+        // The phase from the turning point before: the next is passed at 2K, the equator downwards at 3K.
+        let phase = wide(samples.even(2.35, 3.65)) * motion.k;
+        let t = ((phase - motion.psi0) / motion.speed).to_f64();
+        let [x, y, _] = states(&motion, motion.p_y().to_f64(), &[t])?[0];
+        let (body, p, equator) = (motion.body, motion.p, Wide::PI / wide(2.0));
+        let to_equator = over_phi(&body, p, 0, motion.y0(), equator);
+        let beyond = over_phi(&body, p, 0, equator, wide(y));
+        let around = first_return(&body, p, 0);
+        let theta = match form {
+            1 => to_equator + around + beyond,
+            2 => around - to_equator - beyond,
+            _ => to_equator + around - beyond,
+        };
+        worst.compare(x, theta.to_f64(), 0.0);
+    }
+    Ok(worst.at_most(1e-10, "rounding of an integration, and Gauss-Legendre with eight panels"))
+}
+
+/// `y` of the first conjugate point, and its time in units of `T/4`.
+fn conjugate(motion: &Motion, y0: f64) -> Result<[f64; 2], Unexamined> {
+    let ([a, b, c], quarter) = (motion.body.short(), (motion.k / motion.speed).to_f64());
+    let (p, p_y) = (motion.p.to_f64(), motion.p_y().to_f64());
+    let found =
+        first_conjugate_time_by_integration(a, b, c, y0, p, p_y, 0.0, 5.0 * quarter, 1e-16).map_err(unexamined)?;
+    Ok([found.y, found.t1 / quarter])
+}
+
+fn conjugacy(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(1010), Worst::default());
+    for _ in 0..100 {
+        let motion = motion(&mut samples);
+        let (body, p, equator) = (motion.body, motion.p, Wide::PI / wide(2.0));
+        let [y, _] = conjugate(&motion, motion.y0().to_f64())?;
+        let left = -over_phi(&body, p, 1, equator, wide(y));
+        let start = over_phi(&body, p, 1, motion.y0(), equator);
+        let change = slope(|p| first_return(&body, p, 0), p, step_of(&body, p));
+        let right = match form {
+            1 => -start + change,
+            2 => start - change,
+            3 => -(change / wide(2.0)) - start,
+            _ => -start - change,
+        };
+        worst.see(((left - right) / (left.abs() + start.abs() + change.abs())).to_f64());
+    }
+    Ok(worst.at_most(1e-9, "rounding of an integration, and Gauss-Legendre with eight panels"))
+}
+
+fn right_side_is_positive(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(1011), Cases::default());
+    for _ in 0..100 {
+        let motion = motion(&mut samples);
+        let (body, p, equator) = (motion.body, motion.p, Wide::PI / wide(2.0));
+        // The start on the equator, or below it.
+        let start = if form == 1 { over_phi(&body, p, 1, motion.y0(), equator) } else { Wide::ZERO };
+        let change = slope(|p| first_return(&body, p, 0), p, step_of(&body, p));
+        let value = match form {
+            2 => -start + change,
+            3 => -start + wide(0.5) * change,
+            _ => -start - change,
+        };
+        cases.see(value > Wide::ZERO, || {
+            format!("ξ1 = {}, cos² y0 = {}", motion.xi1.to_f64(), (motion.cosine0 * motion.cosine0).to_f64())
+        });
+    }
+    Ok(cases.none())
+}
+
+fn within_three_quarters(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(1012), Cases::default());
+    for _ in 0..100 {
+        let motion = motion(&mut samples);
+        let y0 = motion.y0().to_f64();
+        let y0 = if form == 1 { y0 } else { std::f64::consts::PI - y0 };
+        let [_, ratio] = conjugate(&motion, y0)?;
+        let (low, high) = match form {
+            2 => (2.0, 2.5),
+            3 => (2.5, 3.0),
+            _ => (2.0, 3.0),
+        };
+        cases.see(low <= ratio && ratio < high, || format!("ξ1 = {}, y0 = {y0}", motion.xi1.to_f64()));
+    }
+    Ok(cases.none())
+}
+
+/// `(θ, φ)` of the first conjugate point of the ascending extremal from a φ0, and its `y`.
+fn locus(body: &Body, phi0: Wide, p: Wide) -> [Wide; 3] {
+    let start = Start::Darboux { phi0, clairaut: Clairaut::PTheta(p), branch: Branch::Ascending };
+    let found = Metric::new(body.a, body.b, body.c).and_then(|metric| Extremal::new(&metric, start));
+    let found = found.ok().and_then(|extremal| first_conjugate_point(&extremal).ok());
+    found.map_or([wide(f64::NAN); 3], |point| [point.theta, point.phi, point.y])
+}
+
+/// A motion, its φ0 < 0, and a step in `p_θ`.
+fn locus_start(samples: &mut Samples) -> (Motion, Wide, f64) {
+    let motion = motion(samples);
+    let phi0 = -over_strip(&motion);
+    let step = 1e-2 * step_of(&motion.body, motion.p);
+    (motion, phi0, step)
+}
+
+/// `|φ0|` of the start.
+fn over_strip(motion: &Motion) -> Wide {
+    let body = motion.body;
+    integral(|y| Wide::ONE / (body.c - body.z_half(y)).sqrt(), motion.y0(), Wide::PI / wide(2.0), 16)
+}
+
+fn motion_of_locus(form: Form) -> Result<Test, Unexamined> {
+    identity(1013, 100, 1e-10, "difference quotients, and Gauss-Legendre with eight panels", |samples| {
+        let (motion, phi0, step) = locus_start(samples);
+        let (body, p, equator) = (motion.body, motion.p, Wide::PI / wide(2.0));
+        let y = locus(&body, phi0, p)[2];
+        let along = slope(|p| locus(&body, phi0, p)[1], p, step);
+        let large = 50.0 * step;
+        let bend = slope(|p| slope(|p| first_return(&body, p, 0), p, large), p, large);
+        let (start, end) = (over_phi(&body, p, 2, motion.y0(), equator), over_phi(&body, p, 2, equator, y));
+        let right = match form {
+            1 => bend - start + end,
+            2 => -bend - start - end,
+            _ => -bend - start + end,
+        };
+        [-(f(body.z_half(y), p)[1] * along), right, bend]
+    })
+}
+
+fn tangent_of_locus(form: Form) -> Result<Test, Unexamined> {
+    identity(1014, 100, 1e-10, "difference quotients of the closed form", |samples| {
+        let (motion, phi0, step) = locus_start(samples);
+        let (body, p) = (motion.body, motion.p);
+        let y = locus(&body, phi0, p)[2];
+        let by = |i: usize| slope(|p| locus(&body, phi0, p)[i], p, step);
+        let f_there = f(body.z_half(y), p)[0];
+        let right = match form {
+            1 => f_there * by(1),
+            2 => -(by(1) / f_there),
+            _ => -(f_there * by(1)),
+        };
+        [by(0), right, Wide::ZERO]
+    })
+}
+
+fn limits_of_f(form: Form, at_start: bool) -> Result<Test, Unexamined> {
+    exact(1015, |samples| {
+        let (body, phi0) = body_and_phi(samples);
+        let phi = phi0 * wide(samples.even(0.05, 0.95));
+        let (Body { a, b, .. }, j, j0) = (body, jacobi(&body, phi), jacobi(&body, phi0));
+        let (z, z0) = (z_at(&body, phi), z_at(&body, phi0));
+        // μ and p_θ in (22), at p_θ² = 1/B and at p_θ² = 2/z(φ0).
+        let (mu, p) = (Wide::ONE / z, Wide::ONE / if at_start { z0.sqrt() } else { b.sqrt() });
+        let below = match (at_start, form) {
+            (false, 1) => (b - a) * j.sn * j.sn,
+            (false, 2) => (b - a) * j.cn,
+            (false, _) => (b - a) * j.cn * j.cn,
+            (true, 1) => a * (j.cn * j.cn - j0.cn * j0.cn) + b * (j0.sn * j0.sn - j.sn * j.sn),
+            (true, 2) => a * (j0.sn * j0.sn - j.sn * j.sn) + b * (j.cn * j.cn - j0.cn * j0.cn),
+            (true, _) => a * (j0.cn * j0.cn - j.cn * j.cn) + b * (j0.sn * j0.sn - j.sn * j.sn),
+        };
+        [mu * (mu - p * p) / (p * p), below.abs() / (z * z), wide(1e-2) * (b - a) / (z * z)]
+    })
+}
+
+fn values_at_rest(form: Form) -> Result<Test, Unexamined> {
+    exact(1016, |samples| {
+        let mc = wide(unit(samples));
+        // η(0) = cn(ψ0|m) at ψ0 = 0, as ξ(0) = ξ1; cn⁻¹(0|m) is K.
+        let value = match form {
+            0 => complete_k(mc),
+            2 => Jacobi::new(Wide::ZERO, Wide::ONE - mc, mc).sn,
+            3 => Jacobi::new(complete_k(mc), Wide::ONE - mc, mc).cn,
+            _ => Jacobi::new(Wide::ZERO, Wide::ONE - mc, mc).cn,
+        };
+        [value, Wide::ONE, Wide::ZERO]
+    })
+}
+
+fn phases_at_rest(form: Form) -> Result<Test, Unexamined> {
+    exact(1017, |samples| {
+        let (body, p) = body_and_clairaut(samples);
+        let ([m, mc, speed], count) = (constants(&body, p), f64::from(1 + (samples.even(0.0, 3.0)) as u32));
+        let k = complete_k(mc);
+        let phase = wide(count)
+            * match form {
+                0 => wide(2.0) * k / speed,
+                2 => k,
+                3 => k / wide(2.0),
+                _ => wide(2.0) * k,
+            };
+        // φ' = 0 where η² = cn² = 1.
+        let cn = Jacobi::new(phase, m, mc).cn;
+        [cn * cn, Wide::ONE, Wide::ZERO]
+    })
+}
+
+fn both_ends_of_cusp(form: Form) -> Result<Test, Unexamined> {
+    exact(1018, |samples| {
+        let (body, phi0) = body_and_phi(samples);
+        let Body { a, b, .. } = body;
+        let z0 = z_at(&body, phi0);
+        // p_θ² = 1/Z(φ0): ξ1 = (1/p_θ² − A)/(B − A).
+        let xi1 = (z0 - a) / (b - a);
+        let j = jacobi(&body, phi0);
+        let left = match form {
+            1 => j.sn * j.sn,
+            2 => j.cn,
+            _ => j.cn * j.cn,
+        };
+        [left, Wide::ONE - xi1, wide(1e-3)]
+    })
+}
+
+fn angle_of_equator(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(1019), Worst::default());
+    for _ in 0..100 {
+        let body = Body::ordinary(&mut samples);
+        let [a, b, c] = body.short();
+        let p = 1.0 / a.sqrt();
+        let y0 = std::f64::consts::FRAC_PI_2;
+        let root = ((b - a) * (c - a)).sqrt();
+        let found = first_conjugate_time_by_integration(a, b, c, y0, p, 0.0, 0.0, 10.0 * p * c / root, 1e-16);
+        let found = found.map_err(unexamined)?;
+        let pi = std::f64::consts::PI;
+        let (time, angle) = match form {
+            0 => (pi * a.sqrt() / root, pi * a * a.sqrt() / root),
+            2 => (pi * a / root, pi * a / root),
+            3 => (pi * a.sqrt() / root, pi * a.sqrt() / root),
+            _ => (pi * a.sqrt() / root, pi * a / root),
+        };
+        worst.compare(found.t1, time, 0.0);
+        worst.compare(found.x, angle, 0.0);
+    }
+    Ok(worst.at_most(1e-11, "rounding of an integration over half a turn"))
+}
+
+const PROOF: &str = "proof of Theorem 3.24";
+const BY_SLOPES: &str = "difference quotients in double-double, any body, p_θ close to both ends too";
+
+/// The statements of this page.
+pub const ALL: &[Statement] = &[
+    direct(
+        [
+            "slopes_of_f",
+            PROOF,
+            "∂f/∂p_θ > 0 and ∂²f/∂p_θ² > 0; they are √μ/(μ − p_θ²)^(3/2) and 3p_θ √μ/(μ − p_θ²)^(5/2).",
+            BY_SLOPES,
+        ],
+        &["as printed", "the sign of the first", "3/2 for 5/2"],
+        slopes_of_f,
+        "The article has the signs only.",
+    ),
+    direct(
+        [
+            "theta_by_phi",
+            PROOF,
+            "Descending, before 3T/4: θ = ∫ f dζ (φ0 to 0) + Δθ − ∫ f dζ (0 to φ).",
+            "integrated extremals from φ0 < 0 upwards",
+        ],
+        &["as printed", "the sign of the last", "the sign of the first"],
+        theta_by_phi,
+        "",
+    ),
+    direct(
+        [
+            "conjugacy_condition",
+            PROOF,
+            "−∫ f' dζ (0 to φ*) = −∫ f' dζ (φ0 to 0) − Δθ', ' for ∂/∂p_θ.",
+            "first conjugate points of integrated extremals from φ0 < 0 upwards",
+        ],
+        &["as printed", "the sign of Δθ'", "the sign of the right side", "half of Δθ'"],
+        conjugacy,
+        "",
+    ),
+    Statement {
+        id: "right_side_is_positive",
+        place: PROOF,
+        says: "−∫ f' dζ (φ0 to 0) − Δθ' > 0, hence φ* < 0.",
+        method: "quadrature and difference quotients at random starts",
+        shape: Shape::OnlyWhen { condition: "φ0 = 0; below the equator it fails for p_θ close enough to √μ(φ0)" },
+        forms: &["from the equator", "from φ0 < 0", "the sign of Δθ'", "that sign and half of it"],
+        examine: right_side_is_positive,
+        note: "It is derived by an integral of f' from −K(k)/α, where f is not real and past a turning point at which f' is not integrable. \
+               Near the cusp φ* is close to −φ0 > 0.",
+    },
+    Statement {
+        id: "within_three_quarters",
+        place: PROOF,
+        says: "On the ascending extremals the first conjugate time lies in [T/2, 3T/4).",
+        method: "zeros of the integrated variation of (9)",
+        shape: Shape::OnlyWhen {
+            condition: "0 ≤ φ0 < K(k)/α; for φ0 < 0, which the proof takes, later ones occur, up to T",
+        },
+        forms: &["φ0 ≥ 0", "φ0 < 0", "[T/2, 5T/8)", "[5T/8, 3T/4)"],
+        examine: within_three_quarters,
+        note: "Theorem 3.9 bounds the smaller |t| of both signs, not the first t > 0.",
+    },
+    direct(
+        [
+            "motion_of_locus",
+            PROOF,
+            "−f'(φ*) φ*' = −Δθ'' − ∫ f'' dζ (φ0 to 0) + ∫ f'' dζ (0 to φ*).",
+            "difference quotients of the closed form of the conjugate points",
+        ],
+        &["as printed", "the sign of Δθ''", "the sign of the last"],
+        motion_of_locus,
+        "",
+    ),
+    direct(
+        [
+            "tangent_of_locus",
+            PROOF,
+            "The tangent of the conjugate locus is φ*' (∂θ/∂φ ∂_θ + ∂_φ), with ∂θ/∂φ = −f(φ*, p_θ) where the extremal descends.",
+            "difference quotients of the closed form of the conjugate points",
+        ],
+        &["as printed", "+f", "1/f"],
+        tangent_of_locus,
+        "",
+    ),
+    direct(
+        [
+            "limit_at_separatrix",
+            PROOF,
+            "For p_θ → B^(−1/2): f → (A cn² + B sn²)/√((B − A) cn²), at αφ*.",
+            "(22) at the limit, random φ",
+        ],
+        &["as printed", "sn² below", "cn for cn²"],
+        |form| limits_of_f(form, false),
+        "",
+    ),
+    direct(
+        [
+            "limit_at_start",
+            PROOF,
+            "For p_θ² → 2/z(φ0): f → (A cn² + B sn²)/√(A(cn0² − cn²) + B(sn0² − sn²)), cn0 at αφ0.",
+            "(22) at the limit, random φ nearer to the equator than φ0",
+        ],
+        &["as printed", "cn² − cn0²", "A and B exchanged"],
+        |form| limits_of_f(form, true),
+        "",
+    ),
+    Statement {
+        id: "eta_at_rest",
+        place: PROOF,
+        says: "η(0) = cn⁻¹(0|m) = 1.",
+        method: "cn and its inverse at random m",
+        shape: Shape::Slip { correction: "η(0) = cn(0|m) = 1" },
+        forms: &["as printed", "cn", "sn", "cn at K"],
+        examine: values_at_rest,
+        note: "cn⁻¹(0|m) is K(m).",
+    },
+    Statement {
+        id: "phases_at_rest",
+        place: PROOF,
+        says: "φ' = 0 at the start means ψ0 = 0 mod 2K(m)/M.",
+        method: "cn² = 1 at multiples",
+        shape: Shape::Slip { correction: "ψ0 = 0 mod 2K(m): ψ0 is a phase, no time" },
+        forms: &["as printed", "mod 2K", "mod K", "mod K/2"],
+        examine: phases_at_rest,
+        note: "",
+    },
+    direct(
+        [
+            "both_ends_of_cusp",
+            PROOF,
+            "For p_θ² → 2/z(φ0): cn²(αφ0|k) = 1 − ξ1, and the same at φ* = −φ0: the slope of the locus tends to infinity there.",
+            "random φ0",
+        ],
+        &["as printed", "sn² for cn²", "cn for cn²"],
+        both_ends_of_cusp,
+        "",
+    ),
+    Statement {
+        id: "equator_time_and_angle",
+        place: "Remark 3.25; Lemma 3.18",
+        says: "On the equator t1 = π√A/√((B − A)(C − A)) and θ(t1) = πA√A/√((B − A)(C − A)).",
+        method: "integrated equators of random bodies with their variation",
+        shape: Shape::Slip { correction: "θ(t1) = πA/√((B − A)(C − A)); the time as printed" },
+        forms: &["as printed", "without √A in the angle", "A for √A in the time", "√A for A in the angle"],
+        examine: angle_of_equator,
+        note: "θ' = p_θ/μ = √A there. The figure's body is looked at on its own in Remark 3.25's experiment.",
+    },
+];
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn every_statement_has_the_expected_outcome() {
+        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
+    }
+}

@@ -1,0 +1,485 @@
+//! Statements of section 3.2.2, Lemmas 3.4 to 3.8: the end-point mapping and the equation of the conjugate times.
+//!
+//! Determinants are difference quotients in double-double, of Proposition 3.2 written out here or of the paths of the `geometry` room;
+//! conjugate times are zeros of the integrated variation of (9).
+
+use super::bodies::{Body, Motion, Wide, by_differences, direct, exact, slope, wide};
+use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
+use crate::contract::claim::Test;
+use crate::geometry::serret_andoyer::flow::first_conjugate_time_by_integration;
+use crate::geometry::serret_andoyer::{Extremal, Metric, Start};
+use crate::numerics::elliptic::incomplete::incomplete_pi;
+use crate::numerics::elliptic::jacobi::{Jacobi, jacobi_epsilon};
+use crate::numerics::real::Real;
+
+/// `Λ`.
+pub fn lambda(body: &Body, xi1: Wide) -> Wide {
+    body.b * xi1 / (body.b * xi1 + body.a * (Wide::ONE - xi1))
+}
+
+/// `T − I(T)` by (17): finite but at the zeros of sn.
+pub fn rest_of_i(motion: &Motion, t: Wide) -> Wide {
+    let (m, mc) = (motion.m, motion.mc);
+    let value = |u: Wide| {
+        let j = Jacobi::new(u, m, mc);
+        jacobi_epsilon(u, m, mc) + j.cn * j.dn / j.sn
+    };
+    value(t + motion.psi0) - value(motion.psi0)
+}
+
+/// `(M, ξ1)` of the impulses at the start.
+fn constants(body: &Body, y0: Wide, p_x: Wide, p_y: Wide) -> [Wide; 2] {
+    energy_constants(body, p_x, body.energy(y0, p_x, p_y))
+}
+
+/// `(M, ξ1)` of `(p_x, h)`.
+fn energy_constants(&Body { a, b, c }: &Body, p_x: Wide, h: Wide) -> [Wide; 2] {
+    let h2 = wide(2.0) * h;
+    [((b - a) * (c * p_x * p_x - h2)).sqrt(), (h2 / (p_x * p_x) - a) / (b - a)]
+}
+
+fn jacobian(f: impl Fn(Wide, Wide) -> [Wide; 2], x: Wide, y: Wide, step: f64) -> Wide {
+    let by_x = |i: usize| slope(|x| f(x, y)[i], x, step * x.to_f64());
+    let by_y = |i: usize| slope(|y| f(x, y)[i], y, step * y.to_f64());
+    by_x(0) * by_y(1) - by_y(0) * by_x(1)
+}
+
+fn initial_impulse(form: Form) -> Result<Test, Unexamined> {
+    exact(601, |samples| {
+        let motion = Motion::oscillating(samples);
+        let (xi0, p) = (motion.cosine0 * motion.cosine0, motion.p);
+        let over = match form {
+            1 => motion.xi3 - motion.xi1,
+            2 => Wide::ONE - xi0,
+            _ => motion.xi3 - xi0,
+        };
+        [motion.p_y() * motion.p_y(), p * p * (motion.xi1 - xi0) / over, Wide::ZERO]
+    })
+}
+
+fn first_factor(form: Form) -> Result<Test, Unexamined> {
+    by_differences(602, |samples| {
+        let motion = Motion::oscillating(samples);
+        let (body, y0, p_y) = (motion.body, motion.y0(), motion.p_y());
+        let left = jacobian(|x, y| [x, body.energy(y0, x, y)], motion.p, p_y, 1e-5);
+        let half_z = body.z_half(y0);
+        let right = match form {
+            1 => p_y * (body.c + half_z),
+            2 => wide(2.0) * p_y * (body.c - half_z),
+            _ => p_y * (body.c - half_z),
+        };
+        [left, right, Wide::ZERO]
+    })
+}
+
+fn second_factor(form: Form) -> Result<Test, Unexamined> {
+    by_differences(603, |samples| {
+        let motion = Motion::oscillating(samples);
+        let (Body { a, b, c }, p, h) = (motion.body, motion.p, motion.h);
+        let step = 1e-6 * ((c * p * p - wide(2.0) * h) / (c * p * p)).to_f64().min(1.0);
+        let left = jacobian(|x, y| energy_constants(&motion.body, x, y), p, h, step);
+        let root = ((c * p * p - wide(2.0) * h) / (b - a)).sqrt();
+        let right = match form {
+            1 => wide(2.0) / (p * p) * root,
+            2 => wide(2.0) / (p * p * p) / root,
+            3 => -(wide(2.0) / (p * p * p) * root),
+            _ => wide(2.0) / (p * p * p) * root,
+        };
+        [left, right, Wide::ZERO]
+    })
+}
+
+fn non_degenerate(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(604), Cases::default());
+    for _ in 0..100 {
+        let motion = Motion::oscillating(&mut samples);
+        let (body, p) = (motion.body, motion.p);
+        let (y0, p_y) = match form {
+            // cos² y0 = ξ1: the start at rest in y.
+            1 => (motion.xi1.sqrt().atan2((Wide::ONE - motion.xi1).sqrt()), Wide::ZERO),
+            // h = C p_x²/2.
+            2 => (motion.y0(), p * wide(1.0 - 1e-24)),
+            _ => (motion.y0(), motion.p_y()),
+        };
+        let h = body.energy(y0, p, p_y);
+        let by = |f: &dyn Fn(Wide) -> [Wide; 2], at: Wide, step: f64| {
+            [slope(|x| f(x)[0], at, step), slope(|x| f(x)[1], at, step)]
+        };
+        let near = ((body.c * p * p - wide(2.0) * h) / (body.c * p * p)).to_f64().max(1e-24);
+        let step = 1e-4 * near.min(1.0) * p.to_f64();
+        let along_x = by(&|x| constants(&body, y0, x, p_y), p, step);
+        let along_y = by(&|y| constants(&body, y0, p, y), p_y, step);
+        let determinant = along_x[0] * along_y[1] - along_y[0] * along_x[1];
+        // In units of what both factors are made of.
+        let Body { a, b, c } = body;
+        let scale = p_y.abs().max(wide(1e-6) * p) * (c - b) / (p * p) * ((c - a) / (b - a)).sqrt();
+        cases.see(determinant.abs() > wide(1e-8) * scale * wide(near.sqrt()).min(wide(1e-4)) && near > 1e-20, || {
+            format!("ξ1 = {}", motion.xi1.to_f64())
+        });
+    }
+    Ok(cases.none())
+}
+
+/// `(x, ξ)` of Proposition 3.2, corrected, as functions of `(M, ξ1)` at a fixed start and time.
+fn place(body: &Body, speed: Wide, xi1: Wide, part_of: Wide, t: Wide) -> [Wide; 2] {
+    let xi3 = (body.c - body.a) / (body.b - body.a);
+    let p = speed / ((body.b - body.a) * (xi3 - xi1).sqrt());
+    let motion = Motion::posed(*body, p, xi1, part_of / xi1);
+    let (m, mc) = (motion.m, motion.mc);
+    let at = |u: Wide| Jacobi::new(u, m, mc);
+    let now = at(speed * t + motion.psi0);
+    let pi = |amplitude: Wide| incomplete_pi(amplitude, xi1, Wide::ONE - xi1, m, mc);
+    let grown = (pi(now.am) - pi(at(motion.psi0).am)) / speed;
+    let xi = xi1 * now.cn * now.cn / (Wide::ONE - xi1 * now.sn * now.sn);
+    [p * (body.b * t - (body.b - body.a) * (Wide::ONE - xi1) * grown), xi]
+}
+
+/// `Δ_T` as printed.
+fn delta(motion: &Motion, t: Wide, form: Form) -> Wide {
+    let (Body { a, b, .. }, xi1, rest) = (motion.body, motion.xi1, rest_of_i(motion, t));
+    match form {
+        3 => b * xi1 * rest + a * (Wide::ONE - xi1) * (rest + t),
+        _ => b * xi1 * rest + a * (Wide::ONE - xi1) * (rest - t),
+    }
+}
+
+/// A motion with a phase at which no function of it vanishes.
+fn motion_and_phase(samples: &mut Samples) -> (Motion, Wide) {
+    let motion = Motion::ordinary(samples);
+    let quarter = samples.even(0.1, 0.9) + f64::from((samples.even(1.0, 5.0)) as u32);
+    (motion, wide(quarter) * motion.k - motion.psi0)
+}
+
+fn determinant_of_place(form: Form) -> Result<Test, Unexamined> {
+    super::bodies::identity(605, 100, 1e-11, "error of a difference quotient of fourth order", |samples| {
+        let (motion, phase) = motion_and_phase(samples);
+        let t = phase / motion.speed;
+        let part = motion.cosine0 * motion.cosine0;
+        let step = 1e-6 * (motion.psi0 / motion.k).to_f64();
+        let left = jacobian(|m, xi1| place(&motion.body, m, xi1, part, t), motion.speed, motion.xi1, step);
+        let j = Jacobi::new(phase + motion.psi0, motion.m, motion.mc);
+        let (Body { a, b, .. }, below) = (motion.body, Wide::ONE - motion.xi1 * j.sn * j.sn);
+        let front = (b - a) * (motion.xi3 - motion.xi1).sqrt() * if form == 2 { below } else { below * below };
+        let right = t * j.cn * j.dn * j.sn / front * delta(&motion, phase, form);
+        [left, if form == 0 { -right } else { right }, Wide::ZERO]
+    })
+}
+
+fn y_by_xi(form: Form) -> Result<Test, Unexamined> {
+    exact(606, |samples| {
+        let (motion, phase) = motion_and_phase(samples);
+        let j = Jacobi::new(phase + motion.psi0, motion.m, motion.mc);
+        // y of the ascending motion: cos y has the sign of cn, sin y = √(1 − ξ); dy/dξ = −1/(2 sin y cos y).
+        let below = Wide::ONE - motion.xi1 * j.sn * j.sn;
+        let (cosine, sine) = (motion.xi1.sqrt() * j.cn, (Wide::ONE - motion.xi1).sqrt());
+        let truth = -(below / (wide(2.0) * sine * cosine));
+        let root = wide(2.0) * (motion.xi1 * (Wide::ONE - motion.xi1)).sqrt();
+        let value = match form {
+            2 => -(below.sqrt() / (root * j.cn)),
+            3 => -(below / (root * j.cn * j.cn)),
+            _ => below / (root * j.cn),
+        };
+        [truth, if form == 1 { -value } else { value }, Wide::ZERO]
+    })
+}
+
+fn second_kind(form: Form) -> Result<Test, Unexamined> {
+    by_differences(607, |samples| {
+        let (motion, phase) = motion_and_phase(samples);
+        // The derivative of (17) by T: both sides vanish at T = 0.
+        let left = match form {
+            1 => slope(
+                |t| {
+                    let j = Jacobi::new(t + motion.psi0, motion.m, motion.mc);
+                    jacobi_epsilon(t + motion.psi0, motion.m, motion.mc) - j.cn * j.dn / j.sn
+                },
+                phase,
+                1e-6,
+            ),
+            _ => slope(|t| rest_of_i(&motion, t), phase, 1e-6),
+        };
+        let j = Jacobi::new(phase + motion.psi0, motion.m, motion.mc);
+        let right = match form {
+            2 => Wide::ONE - Wide::ONE / (j.cn * j.cn),
+            3 => Wide::ONE + Wide::ONE / (j.sn * j.sn),
+            _ => Wide::ONE - Wide::ONE / (j.sn * j.sn),
+        };
+        [left, right, Wide::ONE]
+    })
+}
+
+/// The conjugate time after a given one, by the integrated variation.
+fn conjugate_after(motion: &Motion, p_y: f64, y0: f64, after: f64) -> Result<f64, Unexamined> {
+    let [a, b, c] = motion.body.short();
+    let end = after + 6.0 * (motion.k / motion.speed).to_f64();
+    let found = first_conjugate_time_by_integration(a, b, c, y0, motion.p.to_f64(), p_y, after, end, 1e-16);
+    Ok(found.map_err(unexamined)?.t1)
+}
+
+fn equation_15(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(608), Worst::default());
+    for _ in 0..100 {
+        let motion = Motion::ordinary(&mut samples);
+        let t1 = conjugate_after(&motion, motion.p_y().to_f64(), motion.y0().to_f64(), 0.0)?;
+        let phase = wide(t1) * motion.speed;
+        let (Body { a, b, .. }, xi1) = (motion.body, motion.xi1);
+        let lambda = match form {
+            1 => b * xi1 / (b * xi1 + a),
+            2 => a * xi1 / (a * xi1 + b * (Wide::ONE - xi1)),
+            3 => Wide::ONE - lambda(&motion.body, xi1),
+            _ => lambda(&motion.body, xi1),
+        };
+        let j = Jacobi::new(phase + motion.psi0, motion.m, motion.mc);
+        // The residual of ΛT = I(T) as an error of T.
+        let residual = lambda * phase - phase + rest_of_i(&motion, phase);
+        worst.see((residual / (Wide::ONE / (j.sn * j.sn) - lambda) / phase).to_f64());
+    }
+    Ok(worst.at_most(1e-11, "rounding of an integration, times the condition of the problem"))
+}
+
+fn zeros_of_sn(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(609), Cases::default());
+    for _ in 0..100 {
+        let motion = Motion::ordinary(&mut samples);
+        let t1 = conjugate_after(&motion, motion.p_y().to_f64(), motion.y0().to_f64(), 0.0)?;
+        let other = match form {
+            1 => wide(t1) * motion.speed,
+            2 => motion.k + motion.k,
+            _ => wide(2.0) * motion.k - motion.psi0,
+        };
+        // Left side of (18), with the pole of I at the zero of sn multiplied out: sn·(ΛT − T + E-terms) + cn dn.
+        let j = Jacobi::new(other + motion.psi0, motion.m, motion.mc);
+        let j0 = Jacobi::new(motion.psi0, motion.m, motion.mc);
+        let epsilon = |u: Wide| jacobi_epsilon(u, motion.m, motion.mc);
+        let plain = epsilon(other + motion.psi0) - epsilon(motion.psi0) - j0.cn * j0.dn / j0.sn;
+        let left = j.sn * ((lambda(&motion.body, motion.xi1) - Wide::ONE) * other + plain) + j.cn * j.dn;
+        let is_zero_of_sn = j.sn.abs() < wide(1e-20);
+        cases.see(is_zero_of_sn && left.abs() > wide(1e-6), || format!("ξ1 = {}", motion.xi1.to_f64()));
+    }
+    Ok(cases.none())
+}
+
+fn starts_at_rest(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(610), Worst::default());
+    for _ in 0..100 {
+        let motion = Motion::ordinary(&mut samples);
+        let y0 = motion.xi1.sqrt().atan2((Wide::ONE - motion.xi1).sqrt()).to_f64();
+        let y0 = std::f64::consts::FRAC_PI_2 - y0;
+        let half = 2.0 * (motion.k / motion.speed).to_f64();
+        let mut time = 0.0;
+        for count in 1..=3 {
+            time = conjugate_after(&motion, 0.0, y0, time * (1.0 + 1e-6))?;
+            let expected = match form {
+                1 => half * (f64::from(count) - 0.5),
+                2 => 2.0 * half * f64::from(count),
+                _ => half * f64::from(count),
+            };
+            worst.compare(time, expected, 0.0);
+        }
+    }
+    Ok(worst.at_most(1e-11, "rounding of an integration over three half periods"))
+}
+
+fn sine_of_start(form: Form) -> Result<Test, Unexamined> {
+    exact(611, |samples| {
+        let motion = Motion::oscillating(samples);
+        let (one, xi0, xi1) = (Wide::ONE, motion.cosine0 * motion.cosine0, motion.xi1);
+        let sn = Jacobi::new(motion.psi0, motion.m, motion.mc).sn;
+        let right = match form {
+            1 => (xi1 - xi0) / (one - xi0),
+            2 => (xi1 - xi0) / (xi1 * (one - xi1)),
+            _ => (xi1 - xi0) / (xi1 * (one - xi0)),
+        };
+        [sn * sn, right, Wide::ZERO]
+    })
+}
+
+fn root_of_start(form: Form) -> Result<Test, Unexamined> {
+    exact(612, |samples| {
+        let motion = Motion::oscillating(samples);
+        let (one, xi0, Motion { xi1, xi3, .. }) = (Wide::ONE, motion.cosine0 * motion.cosine0, motion);
+        let j = Jacobi::new(motion.psi0, motion.m, motion.mc);
+        let front = match form {
+            0 => j.sn,
+            2 => j.sn * j.dn,
+            3 => j.sn / j.cn,
+            _ => j.sn / j.dn,
+        };
+        [((xi1 - xi0) / (xi3 - xi0)).sqrt(), front * (xi1 * (one - xi1) / (xi3 - xi1)).sqrt(), Wide::ZERO]
+    })
+}
+
+fn whole_determinant(form: Form) -> Result<Test, Unexamined> {
+    super::bodies::identity(613, 100, 1e-11, "error of a difference quotient of fourth order", |samples| {
+        let (motion, phase) = motion_and_phase(samples);
+        let (t, y0, p, p_y) = (phase / motion.speed, motion.y0(), motion.p, motion.p_y());
+        let Body { a, b, c } = motion.body;
+        let end = |p_x: Wide, p_y: Wide| {
+            let start = Start::Momenta { y0, p_x, p_y };
+            let nan = wide(f64::NAN);
+            Metric::new(a, b, c).and_then(|metric| Extremal::new(&metric, start)).map_or([nan; 2], |extremal| {
+                let at = extremal.position(t);
+                [at.x, at.y]
+            })
+        };
+        let left = jacobian(end, p, p_y, 1e-6 * (motion.psi0 / motion.k).to_f64());
+        let (one, two) = (Wide::ONE, wide(2.0));
+        let j = Jacobi::new(phase + motion.psi0, motion.m, motion.mc);
+        let (xi0, below) = (motion.cosine0 * motion.cosine0, one - motion.xi1 * j.sn * j.sn);
+        let first = p * ((motion.xi1 - xi0) / (motion.xi3 - xi0)).sqrt() * (c - motion.body.z_half(y0));
+        let second = two / (p * p * p) * ((c * p * p - two * motion.h) / (b - a)).sqrt();
+        let third = below / (two * (motion.xi1 * (one - motion.xi1)).sqrt() * j.cn);
+        let last = t * j.cn * j.dn * j.sn / ((b - a) * (motion.xi3 - motion.xi1).sqrt() * below * below);
+        let product = first * second * third * last * delta(&motion, phase, form);
+        let right = match form {
+            1 => product,
+            2 => -(product * t),
+            _ => -product,
+        };
+        [left, right, Wide::ZERO]
+    })
+}
+
+const LEMMA_4: &str = "Lemma 3.4 and its proof";
+const LEMMA_5: &str = "Lemma 3.5 and its proof";
+const LEMMA_8: &str = "Lemma 3.8 and its proof";
+const BY_VARIATION: &str = "zeros of the integrated variation of (9), random bodies and starts";
+
+/// The statements of this page.
+pub const ALL: &[Statement] = &[
+    direct(
+        [
+            "non_degenerate",
+            LEMMA_4,
+            "(p_x, p_y(0)) → (M, ξ1) is non-degenerate where cos² y0 ≠ ξ1 and h ≠ C p_x²/2.",
+            "its determinant by difference quotients",
+        ],
+        &["as printed", "where cos² y0 = ξ1", "where h = C p_x²/2"],
+        non_degenerate,
+        "",
+    ),
+    direct(
+        ["initial_impulse", LEMMA_4, "p_y(0)² = p_x² (ξ1 − cos² y0)/(ξ3 − cos² y0).", "p_y from the energy"],
+        &["as printed", "ξ3 − ξ1 below", "1 − cos² y0 below"],
+        initial_impulse,
+        "",
+    ),
+    direct(
+        [
+            "first_factor",
+            LEMMA_4,
+            "(p_x, p_y(0)) → (p_x, h) has the determinant p_y(0)(C − z(0)/2).",
+            "difference quotients",
+        ],
+        &["as printed", "C + z/2", "twice that"],
+        first_factor,
+        "",
+    ),
+    direct(
+        [
+            "second_factor",
+            LEMMA_4,
+            "(p_x, h) → (M, ξ1) has the determinant (2/p_x³) √((C p_x² − 2h)/(B − A)).",
+            "difference quotients",
+        ],
+        &["as printed", "p_x² below", "the root inverted", "the sign"],
+        second_factor,
+        "",
+    ),
+    Statement {
+        id: "determinant_of_place",
+        place: LEMMA_5,
+        says: "det Δ = −t cn dn sn/((B − A) √(ξ3 − ξ1) (1 − ξ1 sn²)²) · Δ_T, with Δ_T = Bξ1 W + A(1 − ξ1)(W − T), \
+               W = E(T + ψ0) − E(ψ0) + cn dn/sn − cn0 dn0/sn0.",
+        method: "difference quotients of Proposition 3.2 by M and ξ1 at a fixed start",
+        shape: Shape::Slip { correction: "the same without the minus sign" },
+        forms: &["as printed", "without the minus", "1 − ξ1 sn² for its square", "W + T in Δ_T"],
+        examine: determinant_of_place,
+        note: "The minus belongs to (16), which lacks it: the product (19) is right. cn, dn, sn stand for the functions at Mt + ψ0, not for \
+               their squares; the text at hand says squares just before, and x3 − x1 for ξ3 − ξ1.",
+    },
+    Statement {
+        id: "y_by_xi",
+        place: "eq. (16)",
+        says: "∂y/∂ξ = (1 − ξ1 sn²)/(2 √(ξ1(1 − ξ1)) cn).",
+        method: "dy/dξ = −1/(2 sin y cos y) along the ascending motion",
+        shape: Shape::Slip { correction: "the same with a minus sign" },
+        forms: &["as printed", "with the minus", "√(1 − ξ1 sn²) above", "cn² below"],
+        examine: y_by_xi,
+        note: "No zero of the determinant depends on it.",
+    },
+    direct(
+        [
+            "second_kind",
+            "eq. (17)",
+            "E(T + ψ0) − E(ψ0) + cn dn/sn − cn0 dn0/sn0 = T − ∫ du/sn²(u), from ψ0 to T + ψ0.",
+            "derivatives of both sides; they vanish together at T = 0",
+        ],
+        &["as printed", "a minus before cn dn/sn", "cn² below", "plus the integral"],
+        second_kind,
+        "",
+    ),
+    direct(
+        [
+            "equation_15",
+            "eq. (15), (18), Lemma 3.5",
+            "Conjugate times solve ΛMt = I(Mt), Λ = Bξ1/(Bξ1 + A(1 − ξ1)), I(T) = ∫ du/sn²(u) from ψ0 to T + ψ0.",
+            BY_VARIATION,
+        ],
+        &["as printed", "A for A(1 − ξ1)", "A and B exchanged", "1 − Λ"],
+        equation_15,
+        "",
+    ),
+    direct(
+        [
+            "zeros_of_sn",
+            "after eq. (18)",
+            "The zeros of sn do not solve (18): only those of the bracket do.",
+            "left side of (18) at T = 2K − ψ0, its pole multiplied out",
+        ],
+        &["as printed", "at a conjugate time", "at T = 2K"],
+        zeros_of_sn,
+        "",
+    ),
+    direct(
+        ["starts_at_rest", LEMMA_8, "For cos² y0 = ξ1 the conjugate times are 2iK(m)/M, i = 1, 2, …", BY_VARIATION],
+        &["as printed", "half a step earlier", "4iK/M"],
+        starts_at_rest,
+        "The first three are looked at; backward in time they are the same by symmetry.",
+    ),
+    direct(
+        ["sine_of_start", LEMMA_8, "sn0² = (ξ1 − cos² y0)/(ξ1 (1 − cos² y0)).", "sn at the phase that (14) gives"],
+        &["as printed", "without ξ1 below", "1 − ξ1 below"],
+        sine_of_start,
+        "",
+    ),
+    Statement {
+        id: "root_of_start",
+        place: LEMMA_8,
+        says: "√((ξ1 − cos² y0)/(ξ3 − cos² y0)) = sn0 √(ξ1(1 − ξ1)/(ξ3 − ξ1)).",
+        method: "sn and dn at the phase that (14) gives",
+        shape: Shape::Slip { correction: "sn0/dn0 for sn0" },
+        forms: &["as printed", "with dn0", "sn0 dn0", "sn0/cn0"],
+        examine: root_of_start,
+        note: "dn0 → 1 for ψ0 → 0, where the proof uses it.",
+    },
+    direct(
+        [
+            "whole_determinant",
+            "eq. (19)",
+            "det D e^t = −p_y(0)(C − z(0)/2) times the determinant of (p_x, h) → (M, ξ1), times (1 − ξ1 sn²)/(2 √(ξ1(1 − ξ1)) cn), times t cn dn sn/((B − A) √(ξ3 − ξ1) (1 − ξ1 sn²)²) Δ_T.",
+            "difference quotients of the end point by p_x and p_y(0)",
+        ],
+        &["as printed", "the sign", "one t too many", "W + T in Δ_T"],
+        whole_determinant,
+        "Here for every start, not only at rest in y.",
+    ),
+];
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn every_statement_has_the_expected_outcome() {
+        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
+    }
+}

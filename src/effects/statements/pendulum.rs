@@ -1,0 +1,448 @@
+//! Statements of section 3.1: equations (9), the pendulum (10), (11), its equilibria and the kinds of motion.
+//!
+//! Motions are integrated by the flow (9) of the `geometry` room, which knows no closed form; velocities and linearisations are difference
+//! quotients of the Hamiltonian (7).
+
+use super::bodies::{Body, Motion, Wide, by_differences, direct, exact, slope, unit, wide};
+use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
+use crate::contract::claim::Test;
+use crate::geometry::serret_andoyer::flow::trajectory;
+use crate::numerics::real::Real;
+
+/// `[x, y, p_y]` of a motion at these times.
+pub fn states(motion: &Motion, p_y: f64, times: &[f64]) -> Result<Vec<[f64; 3]>, Unexamined> {
+    let [a, b, c] = motion.body.short();
+    let (states, _) =
+        trajectory(a, b, c, motion.y0().to_f64(), motion.p.to_f64(), p_y, times, 1e-16).map_err(unexamined)?;
+    Ok(states)
+}
+
+/// Times of a motion: random fractions of `turns` quarter periods.
+pub fn times_of(motion: &Motion, samples: &mut Samples, turns: f64) -> [f64; 4] {
+    [0; 4].map(|_| samples.even(0.0, turns) * (motion.k / motion.speed).to_f64())
+}
+
+/// A body, `y`, `p_x`, `p_y` with `|p_y| < p_x`.
+fn state(samples: &mut Samples) -> (Body, Wide, Wide, Wide) {
+    let (body, y, p_x) = (Body::any(samples), samples.even(-3.0, 3.0), samples.log(0.2, 5.0));
+    (body, wide(y), wide(p_x), wide(p_x * samples.sign() * unit(samples)))
+}
+
+fn equations_9(form: Form) -> Result<Test, Unexamined> {
+    by_differences(401, |samples| {
+        let (body, y, p_x, p_y) = state(samples);
+        let Body { a, b, c } = body;
+        let (s, cs) = y.sin_cos();
+        let swing = (b - a) * (p_x * p_x - p_y * p_y) * s * cs;
+        let right = [
+            p_x * if form == 1 { a * cs * cs + b * s * s } else { a * s * s + b * cs * cs },
+            p_y * if form == 2 { c + a * s * s + b * cs * cs } else { c - a * s * s - b * cs * cs },
+            if form == 3 { -swing } else { swing },
+        ];
+        let left = [
+            slope(|x| body.energy(y, x, p_y), p_x, 1e-5),
+            slope(|x| body.energy(y, p_x, x), p_y, 1e-5),
+            -slope(|x| body.energy(x, p_x, p_y), y, 1e-5),
+        ];
+        let i = (samples.even(0.0, 3.0) as usize).min(2);
+        [left[i], right[i], wide(1e-6) * body.energy(y, p_x, p_y)]
+    })
+}
+
+fn symmetries(form: Form) -> Result<Test, Unexamined> {
+    exact(402, |samples| {
+        let (body, y, p_x, p_y) = state(samples);
+        let mirrored = match (form, samples.even(0.0, 3.0) as usize) {
+            (1, 0) => body.energy(Wide::PI / wide(2.0) - y, p_x, p_y),
+            (2, 1) => body.energy(y + Wide::PI / wide(2.0), p_x, p_y),
+            (_, 0) => body.energy(-y, p_x, p_y),
+            (_, 1) => body.energy(y + Wide::PI, p_x, p_y),
+            _ => body.energy(y, p_x, -p_y),
+        };
+        [body.energy(y, p_x, p_y), mirrored, Wide::ZERO]
+    })
+}
+
+/// `(∂²H/∂p_y², −∂²H/∂y²)` at an equilibrium: the linearised system there is `δy' = u δp`, `δp' = v δy`, and `λ² = u v`.
+fn linearised(body: &Body, y: Wide, p_x: Wide) -> Wide {
+    let second = |f: &dyn Fn(Wide) -> Wide, at: Wide| {
+        let h = wide(1e-7);
+        (f(at + h) - f(at) - f(at) + f(at - h)) / (h * h)
+    };
+    second(&|p| body.energy(y, p_x, p), Wide::ZERO) * -second(&|y| body.energy(y, p_x, Wide::ZERO), y)
+}
+
+fn linearisation(form: Form, at_equator: bool) -> Result<Test, Unexamined> {
+    by_differences(403, |samples| {
+        let (Body { a, b, c }, _, p_x, _) = state(samples);
+        let body = Body { a, b, c };
+        let y = if at_equator { Wide::PI / wide(2.0) } else { Wide::ZERO };
+        let sign = if at_equator == (form == 1) { Wide::ONE } else { -Wide::ONE };
+        let other = if at_equator == (form == 2) { c - b } else { c - a };
+        let power = if form == 3 { p_x } else { p_x * p_x };
+        [linearised(&body, y, p_x), sign * (b - a) * other * power, Wide::ZERO]
+    })
+}
+
+fn equilibria(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(404), Cases::default());
+    for case in 0..300 {
+        let (body, _, p_x, p_y) = state(&mut samples);
+        let whole = f64::from(case % 5 - 2);
+        let y = match form {
+            1 => wide(whole + 0.5) * Wide::PI / wide(2.0),
+            _ => wide(whole) * Wide::PI / wide(2.0),
+        };
+        let p = if form == 2 { p_y } else { Wide::ZERO };
+        let scale = body.c * p_x * p_x * wide(1e-14) * (body.b - body.a) / body.c;
+        let y_rate = slope(|x| body.energy(y, p_x, x), p, 1e-6);
+        let p_rate = slope(|x| body.energy(x, p_x, p), y, 1e-6);
+        let beside = slope(|x| body.energy(x, p_x, p), y + wide(0.3), 1e-6).abs() > scale;
+        let rests = y_rate.abs() < scale && p_rate.abs() < scale;
+        cases.see(rests && beside, || format!("y = {}", y.to_f64()));
+    }
+    Ok(cases.none())
+}
+
+fn natural_system(form: Form) -> Result<Test, Unexamined> {
+    by_differences(405, |samples| {
+        let (body, y, p_x, p_y) = state(samples);
+        let h = body.energy(y, p_x, p_y);
+        let rate = slope(|x| body.energy(y, p_x, x), p_y, 1e-5);
+        let (half_z, two) = (body.z_half(y), wide(2.0));
+        let v = match form {
+            1 => (body.c + half_z) * (p_x * p_x * half_z - two * h),
+            2 => (body.c - half_z) * (p_x * p_x * half_z - h),
+            3 => (body.c - half_z) * (p_x * half_z - two * h),
+            _ => (body.c - half_z) * (p_x * p_x * half_z - two * h),
+        };
+        [rate * rate, -v, wide(1e-6) * (body.c - half_z) * h]
+    })
+}
+
+fn turning_points(form: Form) -> Result<Test, Unexamined> {
+    exact(406, |samples| {
+        let motion = Motion::oscillating(samples);
+        let Body { a, b, c } = motion.body;
+        let (h2, p2) = (wide(2.0) * motion.h, motion.p * motion.p);
+        let xi1 = match form {
+            1 => (h2 - a * p2) / (p2 * (c - a)),
+            2 => (h2 - b * p2) / (p2 * (b - a)),
+            _ => (h2 - a * p2) / (p2 * (b - a)),
+        };
+        // V at the y whose cos² is ξ1, written in ξ.
+        let half_z = a + (b - a) * xi1;
+        [(c - half_z) * (p2 * half_z - h2), Wide::ZERO, (b - a) * motion.xi1 * p2 * (c - half_z)]
+    })
+}
+
+fn range_of_xi1(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(407), Cases::default());
+    for _ in 0..600 {
+        let (body, p) = (Body::any(&mut samples), wide(samples.log(0.2, 5.0)));
+        let Body { a, b, c } = body;
+        // 2h/p² anywhere in [A, C], some close to A, B and C.
+        let edge = [a, b, c][(samples.even(0.0, 3.0) as usize).min(2)];
+        let ratio = edge + (c - a) * wide(samples.sign() * samples.log(1e-6, 1.0));
+        if ratio < a || ratio > c {
+            continue;
+        }
+        let h2 = ratio * p * p;
+        let xi1 = (h2 - a * p * p) / (p * p * (b - a));
+        let inside = match form {
+            1 => h2 <= c * p * p * wide(0.999),
+            2 => h2 >= b * p * p,
+            _ => h2 <= b * p * p,
+        };
+        cases.see((xi1 >= Wide::ZERO && xi1 <= Wide::ONE) == inside, || format!("ξ1 = {}", xi1.to_f64()));
+    }
+    Ok(cases.none())
+}
+
+fn range_of_oscillation(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(408), Worst::default());
+    for _ in 0..100 {
+        let motion = Motion::ordinary(&mut samples);
+        let xi1 = motion.xi1.to_f64();
+        let low = match form {
+            1 => libm::acos(xi1),
+            2 => libm::asin(xi1.sqrt()),
+            _ => libm::acos(xi1.sqrt()),
+        };
+        // The extremes of y: a step of the secant method finds where p_y vanishes, from the closest of many states.
+        let period = 4.0 * (motion.k / motion.speed).to_f64();
+        let p_y = motion.p_y().to_f64();
+        let times: Vec<f64> = (0..=400).map(|i| f64::from(i) * period / 400.0).collect();
+        let path = states(&motion, p_y, &times)?;
+        let at_turn = |sign: f64| {
+            let pairs = path.windows(2).zip(&times);
+            let turn = pairs.filter(|(pair, _)| pair[0][2] * sign > 0.0 && pair[1][2] * sign <= 0.0);
+            turn.map(|(pair, time)| time + period / 400.0 * pair[0][2] / (pair[0][2] - pair[1][2])).next()
+        };
+        for (sign, end) in [(1.0, std::f64::consts::PI - low), (-1.0, low)] {
+            let Some(time) = at_turn(sign) else { return Err(Unexamined("no turning point in a period".to_owned())) };
+            let mut time = time;
+            for _ in 0..3 {
+                let step = 1e-4 * period;
+                let near = states(&motion, p_y, &[time - step, time, time + step])?;
+                time -= near[1][2] * 2.0 * step / (near[2][2] - near[0][2]);
+            }
+            worst.see(states(&motion, p_y, &[time])?[0][1] - end);
+        }
+    }
+    Ok(worst.at_most(1e-11, "rounding of an integration"))
+}
+
+fn rotations_are_monotone(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(409), Cases::default());
+    for _ in 0..150 {
+        let motion = match form {
+            1 => Motion::ordinary(&mut samples),
+            _ => Motion::ordinary_rotating(&mut samples),
+        };
+        let mut times = times_of(&motion, &mut samples, 8.0);
+        times.sort_by(f64::total_cmp);
+        let path = states(&motion, motion.p_y().to_f64(), &times)?;
+        let falls =
+            path.windows(2).any(|pair| if form == 2 { pair[1][1] >= pair[0][1] } else { pair[1][1] <= pair[0][1] });
+        cases.see(!falls, || format!("ξ1 = {}", motion.xi1.to_f64()));
+    }
+    Ok(cases.none())
+}
+
+fn minor_axis(form: Form) -> Result<Test, Unexamined> {
+    exact(410, |samples| {
+        let (body, y, p_x, _) = state(samples);
+        // At h = C p_x²/2 (or another h in the wrong forms) p_y² from the energy must be p_x², whatever y: the momentum lies along E3.
+        let h2 = match form {
+            1 => body.b * p_x * p_x,
+            2 => body.c * p_x * p_x / wide(2.0),
+            _ => body.c * p_x * p_x,
+        };
+        let half_z = body.z_half(y);
+        [(h2 - p_x * p_x * half_z) / (body.c - half_z), p_x * p_x, Wide::ZERO]
+    })
+}
+
+fn separatrix_joins(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(411), Worst::default());
+    for _ in 0..100 {
+        let body = Body::ordinary(&mut samples);
+        let Body { a, b, c } = body;
+        let motion = Motion::posed(body, Wide::ONE, Wide::ONE, wide(samples.even(0.05, 0.95)));
+        let rate = match form {
+            1 => (b - a) * (c - a),
+            2 => (c - b) * (c - b),
+            _ => (b - a) * (c - b),
+        };
+        // Close to 0 (backward) and to π (forward) the distance falls by e in 1/λ, λ of the linearised system.
+        let turn = 1.0 / ((b - a) * (c - b)).sqrt().to_f64();
+        let sign = samples.sign();
+        let start = sign * samples.even(8.0, 9.0) * turn;
+        let path = states(&motion, motion.p_y().to_f64(), &[start, start + sign * turn])?;
+        let end = if sign > 0.0 { std::f64::consts::PI } else { 0.0 };
+        let fall = ((path[0][1] - end) / (path[1][1] - end)).abs();
+        worst.see(libm::log(fall) / (rate.sqrt().to_f64() * turn) - 1.0);
+    }
+    Ok(worst.at_most(1e-3, "the square of the distance, and rounding that the unstable equilibrium magnifies"))
+}
+
+fn reflected(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(412), Worst::default());
+    for _ in 0..100 {
+        let outside = form == 1;
+        let motion = if outside { Motion::ordinary_rotating(&mut samples) } else { Motion::ordinary(&mut samples) };
+        let p_y = motion.p_y().to_f64();
+        // Where the same motion comes back to y0: half a period less the way to the equator and back, with the impulse turned.
+        let k = (motion.k / motion.speed).to_f64();
+        let psi0 = (motion.psi0 / motion.speed).to_f64();
+        let time = match form {
+            2 => 2.0 * k,
+            3 => 4.0 * k,
+            _ => 4.0 * k - 2.0 * psi0,
+        };
+        let end = states(&motion, p_y, &[time])?[0];
+        worst.see(libm::sin(end[1] - motion.y0().to_f64()));
+        worst.see((end[2] + p_y) / motion.p.to_f64());
+    }
+    Ok(worst.at_most(1e-10, "rounding of an integration"))
+}
+
+fn all_cross_the_equator(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(413), Cases::default());
+    for case in 0..150 {
+        let motion =
+            if case % 2 == 0 { Motion::ordinary(&mut samples) } else { Motion::ordinary_rotating(&mut samples) };
+        let time = 2.0 * (motion.k / motion.speed).to_f64();
+        let target = match form {
+            1 => 0.0,
+            2 => std::f64::consts::PI,
+            _ => std::f64::consts::FRAC_PI_2,
+        };
+        let end = states(&motion, motion.p_y().to_f64(), &[time])?[0][1];
+        let start = motion.y0().to_f64();
+        cases.see((start - target) * (end - target) < 0.0, || format!("ξ1 = {}", motion.xi1.to_f64()));
+    }
+    Ok(cases.none())
+}
+
+const PLACE: &str = "section 3.1";
+const BY_HAMILTONIAN: &str = "difference quotients of (7)";
+const BY_FLOW: &str = "power series of the flow (9), random bodies and starts";
+
+/// The statements of this page.
+pub const ALL: &[Statement] = &[
+    direct(
+        [
+            "equations_9",
+            "eq. (9)",
+            "x' = p_x (A sin² y + B cos² y), y' = p_y (C − A sin² y − B cos² y), p_y' = (B − A)(p_x² − p_y²) sin y cos y.",
+            BY_HAMILTONIAN,
+        ],
+        &["as printed", "A and B exchanged", "a sign in y'", "the sign of p_y'"],
+        equations_9,
+        "",
+    ),
+    direct(
+        [
+            "symmetries",
+            "eq. (10)",
+            "H_a(y, p_y) = H_a(y, −p_y) = H_a(−y, p_y), and it is π-periodic in y.",
+            "random arguments",
+        ],
+        &["as printed", "mirrored at π/4", "π/2-periodic"],
+        symmetries,
+        "",
+    ),
+    direct(
+        ["equilibria", PLACE, "p_y = 0, y = 0 or π/2 mod π are equilibria.", BY_HAMILTONIAN],
+        &["as printed", "y = π/4 mod π/2", "p_y of any value"],
+        equilibria,
+        "",
+    ),
+    direct(
+        [
+            "unstable_equilibrium",
+            PLACE,
+            "At y = 0 the linearised system has λ² = (B − A)(C − B) p_x² > 0.",
+            "second difference quotients of (7)",
+        ],
+        &["as printed", "the sign", "C − A for C − B", "p_x for p_x²"],
+        |form| linearisation(form, false),
+        "",
+    ),
+    direct(
+        [
+            "stable_equilibrium",
+            PLACE,
+            "At y = π/2 the linearised system has λ² = −(B − A)(C − A) p_x² < 0.",
+            "second difference quotients of (7)",
+        ],
+        &["as printed", "the sign", "C − B for C − A", "p_x for p_x²"],
+        |form| linearisation(form, true),
+        "",
+    ),
+    direct(
+        ["natural_system", "eq. (11)", "y'² + V(y) = 0 with V = (C − z/2)(p_x² z/2 − 2h).", BY_HAMILTONIAN],
+        &["as printed", "C + z/2", "h for 2h", "p_x for p_x²"],
+        natural_system,
+        "",
+    ),
+    direct(
+        [
+            "turning_points",
+            "after eq. (11)",
+            "V(y) = 0 where cos² y = ξ1 = (2h − A p_x²)/(p_x² (B − A)).",
+            "V at these places, random energies",
+        ],
+        &["as printed", "C − A below", "B p_x² above"],
+        turning_points,
+        "",
+    ),
+    direct(
+        [
+            "range_of_xi1",
+            "after eq. (11)",
+            "0 ≤ ξ1 ≤ 1 if and only if A p_x² ≤ 2h ≤ B p_x².",
+            "random energies in [A, C] p_x²/2, some close to A, B and C",
+        ],
+        &["as printed", "C for B", "2h ≥ B p_x²"],
+        range_of_xi1,
+        "",
+    ),
+    direct(
+        [
+            "range_of_oscillation",
+            PLACE,
+            "An oscillating y runs from arccos √ξ1 to π − arccos √ξ1.",
+            "extremes of integrated motions",
+        ],
+        &["as printed", "arccos ξ1", "arcsin √ξ1"],
+        range_of_oscillation,
+        "",
+    ),
+    direct(
+        [
+            "rotations_are_monotone",
+            PLACE,
+            "For B p_x² < 2h < C p_x² the motion rotates: y grows (p_y > 0) for ever.",
+            BY_FLOW,
+        ],
+        &["as printed", "2h < B p_x²", "y falls"],
+        rotations_are_monotone,
+        "The article counts 2h = B p_x², the separatrix, to both cases.",
+    ),
+    direct(
+        [
+            "minor_axis",
+            PLACE,
+            "2h = C p_x² is the steady rotation about the axis of least moment: p_y = ±p_x at every y.",
+            "p_y from the energy at random y",
+        ],
+        &["as printed", "2h = B p_x²", "h for 2h"],
+        minor_axis,
+        "In the chart y goes on turning, as the node is not defined there.",
+    ),
+    direct(
+        [
+            "separatrix_joins",
+            "Proposition 3.1",
+            "Motions with 2h = B p_x² join y = 0 to y = π; both ends are approached like exp(−√((B − A)(C − B)) p_x |t|).",
+            BY_FLOW,
+        ],
+        &["as printed", "C − A for C − B", "C − B for B − A"],
+        separatrix_joins,
+        "The rate is that of the linearised system at y = 0.",
+    ),
+    Statement {
+        id: "reflected",
+        place: "Proposition 3.1",
+        says: "All phase trajectories are symmetric with respect to the axes y = 0 and p_y = 0.",
+        method: "whether an integrated motion meets its mirror image (y0, −p_y)",
+        shape: Shape::OnlyWhen {
+            condition: "the motion oscillates; a rotation is mapped by p_y → −p_y to another rotation, the one in the other direction",
+        },
+        forms: &["oscillating", "rotating", "half a period", "a period"],
+        examine: reflected,
+        note: "The level set of H_a is symmetric in every case; a rotation is one of its two parts.",
+    },
+    direct(
+        [
+            "all_cross_the_equator",
+            "after Proposition 3.1",
+            "Every motion but those that rest crosses y = π/2 mod π: starts there are enough to have all.",
+            "sides of π/2 half a period apart, both kinds",
+        ],
+        &["as printed", "y = 0", "y = π"],
+        all_cross_the_equator,
+        "",
+    ),
+];
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn every_statement_has_the_expected_outcome() {
+        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
+    }
+}

@@ -1,0 +1,570 @@
+//! Statements of section 3.3.1: geodesics and conjugate points on a surface of revolution `dφ² + μ(φ) dθ²`.
+//!
+//! Most are checked on the surfaces `1/μ = W = 1 + aφ² + bφ⁴`, which have an equator, a mirror there, and a pendulum that is hard or soft by
+//! the choice of `b`: the first return falls with `p_θ` (tame) for `b < 2a²/3` and grows for larger `b`, about the equator. Their geodesics are
+//! integrated with the variation by `p_θ` at a fixed energy, by a Runge-Kutta pair that shares nothing with the closed forms. The
+//! substitution `φ = φ+ sin s` makes period and first return means over a turn.
+
+use super::bodies::{Wide, by_differences, direct, exact, identity, integral, slope, wide};
+use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
+use crate::contract::claim::Test;
+use crate::numerics::real::Real;
+use crate::numerics::roots::{RootTolerance, bracketed};
+use crate::numerics::runge_kutta::dop853::Dop853;
+use crate::numerics::runge_kutta::integrator::integrate;
+use crate::numerics::runge_kutta::rate::{ByRate, RightHandSide};
+use crate::numerics::taylor::integrator::Settings;
+
+/// A surface and Clairaut's constant `p_θ < 1` of a geodesic that oscillates about the equator.
+#[derive(Clone, Copy, Debug)]
+struct Surface {
+    a: f64,
+    b: f64,
+    p: f64,
+}
+
+impl Surface {
+    /// A tame one, `−0.2 < b/a² < 0.5`.
+    fn tame(samples: &mut Samples) -> Self {
+        Self::new(samples, -0.2, 0.5)
+    }
+
+    /// One whose first return grows with `p_θ`.
+    fn hard(samples: &mut Samples) -> Self {
+        Self::new(samples, 2.0, 5.0)
+    }
+
+    fn new(samples: &mut Samples, from: f64, to: f64) -> Self {
+        let a = samples.log(0.3, 3.0);
+        // 1/p² − 1 < 1 stays below the height a²/(4|b|) of a soft pendulum's wall.
+        Self { a, b: a * a * samples.even(from, to), p: 1.0 / (1.0 + samples.even(0.05, 0.9)).sqrt() }
+    }
+
+    /// `φ+`, where `p² W = 1`.
+    fn turning(&self, p: Wide) -> Wide {
+        let (a, b, two) = (wide(self.a), wide(self.b), wide(2.0));
+        let height = Wide::ONE / (p * p) - Wide::ONE;
+        (two * height / (a + (a * a + wide(4.0) * b * height).sqrt())).sqrt()
+    }
+
+    /// Period and first return as means over a turn of `1/√(a + b φ+²(1 + sin² s))`, and of W times that.
+    fn returns(&self, p: Wide) -> [Wide; 2] {
+        let (a, b, square) = (wide(self.a), wide(self.b), self.turning(p) * self.turning(p));
+        let count = 24;
+        let mut sums = [Wide::ZERO; 2];
+        for i in 0..count {
+            let sine = (Wide::PI * wide((f64::from(i) + 0.5) / f64::from(count))).sin();
+            let x = square * sine * sine;
+            let weight = Wide::ONE / (a + b * (square + x)).sqrt();
+            sums[0] += weight;
+            sums[1] += weight * (Wide::ONE + a * x + b * x * x);
+        }
+        let mean = wide(1.0 / f64::from(count));
+        [wide(2.0) * Wide::PI / p * sums[0] * mean, Wide::PI * sums[1] * mean]
+    }
+
+    fn period(&self) -> f64 {
+        self.returns(wide(self.p))[0].to_f64()
+    }
+
+    /// `[φ, p_φ, θ, δφ, δp_φ, δθ]` after a time, from the equator upwards.
+    fn after(&self, from: &[f64; 6], span: f64) -> Result<[f64; 6], Unexamined> {
+        let flow = ByRate::new(*self);
+        let arrival =
+            integrate(Dop853, &flow, from, (0.0, span), &Settings::new(1e-14), &mut ()).map_err(unexamined)?;
+        Ok(arrival.state)
+    }
+
+    /// The state on the equator, ascending; the variation by `p_θ` keeps the energy.
+    fn start(&self) -> [f64; 6] {
+        let p_phi = ((1.0 - self.p) * (1.0 + self.p)).sqrt();
+        [0.0, p_phi, 0.0, 0.0, -self.p / p_phi, 0.0]
+    }
+
+    /// Whether `δφ` keeps its sign on `(0, end)`. Its zeros are at least a half turn of the largest curvature apart, many times the step.
+    fn no_conjugate_point(&self, end: f64) -> Result<bool, Unexamined> {
+        let (mut state, count) = (self.start(), 24);
+        for _ in 0..count {
+            state = self.after(&state, end / f64::from(count))?;
+            if state[3] >= 0.0 {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+}
+
+impl RightHandSide<f64> for Surface {
+    type State<T: Copy> = [T; 6];
+
+    fn rate(&self, _: f64, x: &[f64; 6]) -> [f64; 6] {
+        let (s, p) = (x[0] * x[0], self.p);
+        let w = 1.0 + s * (self.a + self.b * s);
+        let (w1, w2) = (x[0] * (2.0 * self.a + 4.0 * self.b * s), 2.0 * self.a + 12.0 * self.b * s);
+        [x[1], -0.5 * p * p * w1, p * w, x[4], -p * w1 - 0.5 * p * p * w2 * x[3], w + p * w1 * x[3]]
+    }
+
+    fn scales(&self, _: &[f64; 6]) -> [f64; 6] {
+        [1.0; 6]
+    }
+}
+
+/// `(a, b, φ, p_φ, p_θ)` of a surface without symmetry, `1/μ = 1 + aφ + bφ²`.
+fn point(samples: &mut Samples) -> [Wide; 5] {
+    let [a, b] = [0; 2].map(|_| wide(samples.even(0.1, 0.9)));
+    [a, b, wide(samples.even(-0.8, 0.8)), wide(samples.even(-2.0, 2.0)), wide(samples.sign() * samples.even(0.2, 3.0))]
+}
+
+fn energy([a, b, phi, p_phi, p_theta]: [Wide; 5]) -> Wide {
+    (p_phi * p_phi + p_theta * p_theta * (Wide::ONE + a * phi + b * phi * phi)) / wide(2.0)
+}
+
+fn flow_21(form: Form) -> Result<Test, Unexamined> {
+    by_differences(901, |samples| {
+        let x = point(samples);
+        let [a, b, phi, _, p_theta] = x;
+        let mu = |phi: Wide| Wide::ONE / (Wide::ONE + a * phi + b * phi * phi);
+        let left = -slope(|phi| energy([a, b, phi, x[3], p_theta]), phi, 1e-5);
+        let printed = slope(mu, phi, 1e-5) / (wide(2.0) * mu(phi) * mu(phi));
+        let right = match form {
+            0 => printed,
+            2 => -(printed * p_theta * p_theta),
+            3 => printed * p_theta * p_theta * mu(phi),
+            _ => printed * p_theta * p_theta,
+        };
+        [left, right, wide(1e-3)]
+    })
+}
+
+fn slope_22(form: Form) -> Result<Test, Unexamined> {
+    by_differences(902, |samples| {
+        let [a, b, phi, ..] = point(samples);
+        let mu = Wide::ONE / (Wide::ONE + a * phi + b * phi * phi);
+        let p = wide(samples.even(0.05, 0.95)) * mu.sqrt();
+        // Arc length: p_φ² = 1 − p_θ²/μ; dθ/dφ from the derivatives of H.
+        let p_phi = (Wide::ONE - p * p / mu).sqrt();
+        let theta = slope(|p| energy([a, b, phi, p_phi, p]), p, 1e-6);
+        let along = slope(|x| energy([a, b, phi, x, p]), p_phi, 1e-6);
+        let right = match form {
+            1 => p / (mu.sqrt() * (mu + p * p).sqrt()),
+            2 => p / (mu - p * p).sqrt(),
+            _ => p / (mu.sqrt() * (mu - p * p).sqrt()),
+        };
+        // φ'² + μθ'² = 1 comes with it.
+        let length = along * along + mu * theta * theta;
+        [theta / along * length, right, Wide::ZERO]
+    })
+}
+
+fn range_of_clairaut(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(903), Cases::default());
+    for _ in 0..300 {
+        let mu = samples.log(0.1, 10.0);
+        let limit = match form {
+            0 => mu,
+            2 => mu * mu,
+            3 => 1.0 / mu.sqrt(),
+            _ => mu.sqrt(),
+        };
+        // p_φ² = 1 − p_θ²/μ ≥ 0 just inside and not just outside.
+        let real = |p: f64| p * p <= mu;
+        cases.see(real(limit * (1.0 - 1e-9)) && !real(limit * (1.0 + 1e-9)), || format!("μ(φ0) = {mu}"));
+    }
+    Ok(cases.none())
+}
+
+fn parallels(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(904), Cases::default());
+    for case in 0..300 {
+        let [a, b, ..] = point(&mut samples);
+        let critical = -(a / (wide(2.0) * b));
+        let phi = match (form, case % 2) {
+            (1, 0) => Wide::ZERO,
+            (_, 0) => critical,
+            _ => critical + wide(samples.sign() * samples.even(0.01, 1.0)),
+        };
+        let rate = -slope(|phi| energy([a, b, phi, Wide::ZERO, Wide::ONE]), phi, 1e-5);
+        let rests = rate.abs() < wide(1e-18);
+        let expected = if form == 2 { case % 2 == 1 } else { case % 2 == 0 };
+        cases.see(rests == expected, || format!("φ = {}", phi.to_f64()));
+    }
+    Ok(cases.none())
+}
+
+fn parallels_are_extrema(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(905), Cases::default());
+    for _ in 0..200 {
+        let [a, b, _, _, p] = point(&mut samples);
+        let sign = wide(samples.sign());
+        // V = p²/μ around a parallel at φ = 0: 1/μ = 1 ± aφ² + bφ³, or without the square.
+        let square = if form == 1 { Wide::ZERO } else { sign * a };
+        let v = |phi: Wide| {
+            let linear = if form == 2 { a } else { Wide::ZERO };
+            let inverse = Wide::ONE + linear * phi + square * phi * phi + b * phi * phi * phi;
+            p * p * inverse
+        };
+        let near = wide(1e-4);
+        let (left, right) = (v(-near) - v(Wide::ZERO), v(near) - v(Wide::ZERO));
+        let opposite = left * right < Wide::ZERO;
+        cases.see(opposite == (form == 3), || format!("a = {}, b = {}", square.to_f64(), b.to_f64()));
+    }
+    Ok(cases.none())
+}
+
+fn gauss_curvature(form: Form) -> Result<Test, Unexamined> {
+    by_differences(906, |samples| {
+        let (big, small) = (wide(samples.even(1.2, 3.0)), wide(samples.even(0.3, 1.0)));
+        let u = wide(samples.even(-1.2, 1.2));
+        let torus = samples.sign() > 0.0;
+        // A torus and an ellipsoid of revolution in space: distance from the axis √μ, arc length along the meridian, and the product of the
+        // principal curvatures.
+        let radius = |u: Wide| if torus { big + small * u.cos() } else { big * u.cos() };
+        let stretch = |u: Wide| {
+            let (s, c) = u.sin_cos();
+            if torus { small } else { (big * big * s * s + small * small * c * c).sqrt() }
+        };
+        let (s, c) = u.sin_cos();
+        let square = big * big * s * s + small * small * c * c;
+        let truth = if torus { c / (small * radius(u)) } else { small * small / (square * square) };
+        let first = |u: Wide| slope(radius, u, 1e-4) / stretch(u);
+        let second = slope(first, u, 1e-4) / stretch(u);
+        let value = match form {
+            1 => second / radius(u),
+            2 => -second,
+            3 => {
+                -(slope(|u| slope(|u| radius(u) * radius(u), u, 1e-4) / stretch(u), u, 1e-4) / stretch(u))
+                    / (radius(u) * radius(u))
+            }
+            _ => -(second / radius(u)),
+        };
+        [truth, value, wide(0.1)]
+    })
+}
+
+fn euler_field(form: Form) -> Result<Test, Unexamined> {
+    by_differences(907, |samples| {
+        let x = point(samples);
+        // H⃗ at (φ; p_φ, p_θ) with p scaled: [H⃗, V] = DV·H⃗ − DH⃗·V for V = p ∂_p.
+        let field = |scale: Wide, i: usize| {
+            let p = [x[3] * scale, x[4] * scale];
+            match i {
+                0 => p[0],
+                1 => p[1] * (Wide::ONE + x[0] * x[2] + x[1] * x[2] * x[2]),
+                _ => -slope(|phi| energy([x[0], x[1], phi, p[0], p[1]]), x[2], 1e-5),
+            }
+        };
+        let i = (samples.even(0.0, 3.0) as usize).min(2);
+        let here = field(Wide::ONE, i);
+        let along = if i == 2 { here } else { Wide::ZERO };
+        let commutator = along - slope(|scale| field(scale, i), Wide::ONE, 1e-5);
+        let right = match form {
+            1 => here,
+            2 => -(wide(2.0) * here),
+            _ => -here,
+        };
+        [commutator, right, wide(1e-3)]
+    })
+}
+
+fn collinearity(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(908), Worst::default());
+    for case in 0..100 {
+        let surface = if case % 2 == 0 { Surface::tame(&mut samples) } else { Surface::hard(&mut samples) };
+        let x = surface.after(&surface.start(), samples.even(0.1, 0.9) * surface.period())?;
+        let left = match form {
+            1 => x[1] * x[3] - surface.p * x[5],
+            2 => surface.p * x[3] + x[1] * x[5],
+            _ => x[1] * x[3] + surface.p * x[5],
+        };
+        worst.compare(left, 0.0, x[3].abs() + x[5].abs());
+    }
+    Ok(worst.at_most(1e-10, "error of a Runge-Kutta pair over a period"))
+}
+
+fn no_point_while_ascending(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(909), Cases::default());
+    for case in 0..100 {
+        let surface = if case % 2 == 0 { Surface::tame(&mut samples) } else { Surface::hard(&mut samples) };
+        let part = match form {
+            1 => 0.75,
+            2 => 0.5,
+            _ => 0.25,
+        };
+        cases.see(surface.no_conjugate_point(part * surface.period())?, || format!("{surface:?}"));
+    }
+    Ok(cases.none())
+}
+
+fn tame_flow(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(910), Cases::default());
+    for _ in 0..100 {
+        let surface = if form == 1 { Surface::hard(&mut samples) } else { Surface::tame(&mut samples) };
+        let p = wide(surface.p);
+        let falls = slope(|p| surface.returns(p)[1], p, 1e-5) < Wide::ZERO;
+        let part = if form == 2 { 0.75 } else { 0.5 };
+        let none = surface.no_conjugate_point(part * surface.period())?;
+        cases.see(falls != (form == 1) && none, || format!("{surface:?}"));
+    }
+    Ok(cases.none())
+}
+
+fn period_and_return(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(911), Worst::default());
+    for case in 0..80 {
+        let surface = if case % 2 == 0 { Surface::tame(&mut samples) } else { Surface::hard(&mut samples) };
+        let [period, first_return] = surface.returns(wide(surface.p)).map(|x| x.to_f64());
+        let period = if form == 1 { 2.0 * period } else { period };
+        // Half a period later: on the equator, descending, θ grown by the first return; a quarter: at φ+.
+        let half = surface.after(&surface.start(), period / 2.0)?;
+        worst.see(half[0]);
+        worst.compare(half[2], if form == 2 { 2.0 * first_return } else { first_return }, 0.0);
+        let quarter = surface.after(&surface.start(), period / 4.0)?;
+        worst.see(quarter[1]);
+    }
+    Ok(worst.at_most(1e-10, "error of a Runge-Kutta pair over half a period"))
+}
+
+fn slopes_of_both(form: Form) -> Result<Test, Unexamined> {
+    identity(912, 100, 1e-11, "means of 24 values, difference quotients", |samples| {
+        let surface = if samples.sign() > 0.0 { Surface::tame(samples) } else { Surface::hard(samples) };
+        let p = wide(surface.p);
+        let by = |i: usize| slope(|p| surface.returns(p)[i], p, 1e-4);
+        let right = match form {
+            1 => by(0) / p,
+            2 => by(0) * p / wide(2.0),
+            3 => -(by(0) / (wide(2.0) * p)),
+            _ => by(0) / (wide(2.0) * p),
+        };
+        [by(1), right, wide(1e-3)]
+    })
+}
+
+fn equator_point(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(913), Cases::default());
+    for case in 0..100 {
+        let mut surface = Surface::tame(&mut samples);
+        // G(0) = a, the largest value on these surfaces. On the equator, p_θ = 1 and p_φ = 0, δφ starts with δp_φ.
+        let time = match form {
+            1 => std::f64::consts::PI / surface.a,
+            2 => 2.0 * std::f64::consts::PI / surface.a.sqrt(),
+            _ => std::f64::consts::PI / surface.a.sqrt(),
+        };
+        let holds = if case % 2 == 0 {
+            surface.p = 1.0;
+            let along = |t: f64| surface.after(&[0.0, 0.0, 0.0, 0.0, -1.0, 0.0], t);
+            along(time * (1.0 - 1e-6))?[3] < along(time * (1.0 + 1e-6))?[3] && along(time)?[3].abs() < 1e-10
+        } else {
+            surface.no_conjugate_point(time)?
+        };
+        cases.see(holds, || format!("{surface:?}"));
+    }
+    Ok(cases.none())
+}
+
+fn equation_24(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(914), Worst::default());
+    for _ in 0..100 {
+        let surface = Surface::tame(&mut samples);
+        let (period, p) = (surface.period(), wide(surface.p));
+        let middle = surface.after(&surface.start(), period / 2.0)?;
+        let variation = |t: f64| surface.after(&middle, t).map_or(f64::NAN, |x| x[3]);
+        let root = bracketed(variation, 0.0, period / 4.0, RootTolerance::full()).map_err(unexamined)?;
+        let phi = wide(surface.after(&middle, root.x)?[0]);
+        let w = |phi: Wide| Wide::ONE + phi * phi * (wide(surface.a) + wide(surface.b) * phi * phi);
+        // ∂f/∂p_θ = W/(1 − p_θ² W)^(3/2).
+        let f = |x: Wide| {
+            let rest = Wide::ONE - p * p * w(x);
+            if form == 2 { w(x) / rest.sqrt() } else { w(x) / (rest * rest.sqrt()) }
+        };
+        let tail = integral(f, phi, Wide::ZERO, 16);
+        let slope_of_return = slope(|p| surface.returns(p)[1], p, 1e-4);
+        let left = match form {
+            1 => slope_of_return - tail,
+            3 => slope_of_return / wide(2.0) + tail,
+            _ => slope_of_return + tail,
+        };
+        worst.see((left / tail).to_f64());
+    }
+    Ok(worst.at_most(1e-9, "error of the integration, magnified where the geodesic turns"))
+}
+
+fn energy_of_field(form: Form) -> Result<Test, Unexamined> {
+    exact(915, |samples| {
+        let x = point(samples);
+        // P = V + tH⃗ scaled: p·∂H/∂p = 2H, so ω(P) = 2tH, which is t on H = 1/2.
+        let w = Wide::ONE + x[0] * x[2] + x[1] * x[2] * x[2];
+        let t = wide(samples.even(0.1, 3.0));
+        let value = t * (x[3] * x[3] + x[4] * x[4] * w);
+        let factor = match form {
+            1 => 1.0,
+            2 => 4.0,
+            _ => 2.0,
+        };
+        [value, wide(factor) * t * energy(x), Wide::ZERO]
+    })
+}
+
+const PLACE: &str = "section 3.3.1";
+const SURFACES: &str = "geodesics of 1/μ = 1 + aφ² + bφ⁴ with their variation, by a Runge-Kutta pair";
+
+/// The statements of this page.
+pub const ALL: &[Statement] = &[
+    Statement {
+        id: "flow_21",
+        place: "eq. (21)",
+        says: "p_φ' = ½ μ'/μ².",
+        method: "difference quotients of H on surfaces without symmetry",
+        shape: Shape::Slip { correction: "p_φ' = ½ p_θ² μ'/μ²" },
+        forms: &["as printed", "with p_θ²", "the sign", "μ for μ²"],
+        examine: flow_21,
+        note: "The other equations of (21) are right.",
+    },
+    direct(
+        [
+            "slope_22",
+            "eq. (22)",
+            "At arc length dθ/dφ = p_θ/(√μ √(μ − p_θ²)) on the ascending branch.",
+            "difference quotients of H",
+        ],
+        &["as printed", "μ + p_θ²", "without √μ"],
+        slope_22,
+        "The text at hand writes g(φ, θ) for g(φ, p_θ) before it.",
+    ),
+    Statement {
+        id: "range_of_clairaut",
+        place: PLACE,
+        says: "Geodesics through φ0 with p_θ > 0 have p_θ in (0, μ(φ0)).",
+        method: "whether p_φ is real just inside and just outside",
+        shape: Shape::Slip { correction: "p_θ in (0, √μ(φ0))" },
+        forms: &["as printed", "√μ", "μ²", "1/√μ"],
+        examine: range_of_clairaut,
+        note: "Lemma 3.14 and Definition 3.15 have the root.",
+    },
+    direct(
+        [
+            "parallels",
+            PLACE,
+            "φ(t) = φ0 with p_φ = 0 is a solution if and only if μ'(φ0) = 0.",
+            "p_φ' at and beside critical points of μ",
+        ],
+        &["as printed", "at φ = 0", "where μ' ≠ 0"],
+        parallels,
+        "",
+    ),
+    Statement {
+        id: "parallels_are_extrema",
+        place: PLACE,
+        says: "Parallel solutions correspond to local extrema of V(p_θ, ·) = p_θ²/μ.",
+        method: "V on both sides of a parallel",
+        shape: Shape::OnlyWhen {
+            condition: "the first derivative of μ that does not vanish there is of even order; else, as at φ = 0 of 1/μ = 1 + bφ³, it is a parallel \
+                        and no extremum",
+        },
+        forms: &["μ'' ≠ 0", "μ'' = 0, μ''' ≠ 0", "μ' ≠ 0", "V grows or falls through it"],
+        examine: parallels_are_extrema,
+        note: "",
+    },
+    direct(
+        [
+            "poincare_commutator",
+            PLACE,
+            "[H⃗, V] = −H⃗ for V = p ∂_p, so that P(t) = V + tH⃗.",
+            "difference quotients; [X, Y] = DY·X − DX·Y",
+        ],
+        &["as printed", "the sign", "twice that"],
+        euler_field,
+        "",
+    ),
+    direct(
+        ["poincare_field_is_transversal", PLACE, "ω(P(t)) = t p ∂H/∂p = 2tH.", "random points"],
+        &["as printed", "tH", "4tH"],
+        energy_of_field,
+        "",
+    ),
+    direct(
+        [
+            "collinearity",
+            "eq. (23), Lemma 3.13",
+            "p_φ ∂φ/∂p_θ + p_θ ∂θ/∂p_θ = 0 for all t, at a fixed energy.",
+            SURFACES,
+        ],
+        &["as printed", "a sign", "p_φ and p_θ exchanged"],
+        collinearity,
+        "So a point is conjugate as soon as ∂φ/∂p_θ = 0, where p_θ ≠ 0.",
+    ),
+    direct(
+        ["no_point_while_ascending", "Lemma 3.14", "While φ' > 0 there is no conjugate point.", SURFACES],
+        &["as printed", "up to 3T/4", "up to T/2 on every surface"],
+        no_point_while_ascending,
+        "",
+    ),
+    direct(
+        [
+            "period_and_first_return",
+            "Definition 3.15",
+            "T/4 = ∫ g dφ and Δθ = 2 ∫ f dφ from 0 to φ+; the equator is met again at T/2.",
+            SURFACES,
+        ],
+        &["as printed", "T for T/2", "4 ∫ f"],
+        period_and_return,
+        "",
+    ),
+    direct(
+        ["tame_flow", "Proposition 3.17", "If R'(p_θ) < 0 the extremal has no conjugate point on (0, T/2).", SURFACES],
+        &["as printed", "R' > 0", "on (0, 3T/4)"],
+        tame_flow,
+        "",
+    ),
+    direct(
+        [
+            "gauss_curvature_formula",
+            PLACE,
+            "G = −(√μ)''/√μ.",
+            "product of the principal curvatures of tori and ellipsoids in space",
+        ],
+        &["as printed", "the sign", "without 1/√μ", "μ for √μ"],
+        gauss_curvature,
+        "",
+    ),
+    direct(
+        [
+            "equator_point",
+            "Lemma 3.18",
+            "If G(0) = max G > 0, the first conjugate time on the equator is π/√G(0), and no geodesic from there has an earlier one.",
+            SURFACES,
+        ],
+        &["as printed", "π/G(0)", "2π/√G(0)"],
+        equator_point,
+        "",
+    ),
+    direct(
+        [
+            "equation_24",
+            "eq. (24), Lemma 3.19",
+            "The conjugate time in (T/2, 3T/4) solves Δθ'(p_θ) + ∫ ∂f/∂p_θ dζ = 0, from φ to 0.",
+            "conjugate times of integrated variations",
+        ],
+        &["as printed", "a sign", "an exponent of ∂f/∂p_θ", "half of Δθ'"],
+        equation_24,
+        "",
+    ),
+    direct(
+        [
+            "slopes_of_return_and_period",
+            "Lemma 3.20",
+            "R'(p_θ) = T'(p_θ)/(2 p_θ).",
+            "difference quotients of both integrals, tame and other surfaces",
+        ],
+        &["as printed", "without the two", "p_θ above", "the sign"],
+        slopes_of_both,
+        "",
+    ),
+];
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn every_statement_has_the_expected_outcome() {
+        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
+    }
+}
