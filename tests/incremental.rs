@@ -73,8 +73,8 @@ fn editing_one_k_runs_its_nodes_the_picture_and_the_findings() {
 
     let report = workspace.figures();
     let ran: BTreeSet<String> = report.nodes("ran").into_iter().collect();
-    // values.toml collects the findings of all.
-    let collected = BTreeSet::from(["values/all".to_owned()]);
+    // values.toml and the page collect what all found.
+    let collected = BTreeSet::from(["article/page".to_owned(), "values/all".to_owned()]);
     assert_eq!(&ran - &collected, expected);
     assert_eq!(report.nodes("cached").len() + ran.len(), before.len());
     assert!(workspace.files("figures").get("fig8.svg") == outputs.get("fig8.svg"));

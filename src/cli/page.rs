@@ -17,7 +17,9 @@ use crate::effects::scene::METRICS;
 use crate::effects::spin::conjugate_loci::ConjugateLoci;
 use crate::effects::spin::momenta::Momenta;
 use crate::experiments;
-use crate::experiments::definition::{FINDINGS_FILE, FINDINGS_NODE, PICTURE_FILE, PICTURE_NODE};
+use crate::experiments::definition::{
+    FINDINGS_FILE, FINDINGS_NODE, MEASURED_FOLDER, MEASURED_PICTURE_NODE, PICTURE_FILE, PICTURE_NODE,
+};
 use crate::pipeline::graph::Graph;
 use crate::pipeline::render::{Format, render};
 use serde::Serialize;
@@ -99,7 +101,7 @@ pub fn plan(experiments: &[Loaded], places: Places) -> Result<Plan, NodeError> {
     let (from, to, step) = LOCI_K;
     let k = (from..=to).step_by(step as usize).map(|k| f64::from(k) / 1000.0).collect();
     let loci = Node::new(Address::new(ID, LOCI), ConjugateLoci { k, p_theta: LOCI_MOMENTA }).map_err(defect)?;
-    let plans: Vec<Plan> = in_order.iter().map(|loaded| loaded.plan.clone()).collect();
+    let plans: Vec<Plan> = in_order.iter().map(|loaded| without_measurements(&loaded.plan)).collect();
     let compute = PageOf { entries: entries.clone(), metrics, graph: graph_digest(&plans), plans };
     let mut node = Node::new(Address::new(ID, "page"), compute).map_err(defect)?.input(LOCI, &loci.address, TABLE);
     let export = |path: String, node: &Address, artifact: String| Export { path, from: node.clone(), artifact };
@@ -134,6 +136,15 @@ fn entry(loaded: &Loaded, places: Places) -> Entry {
     let made = loaded.plan.exports.iter().filter(|made| made.artifact == TABLE && made.path.starts_with("data/"));
     let tables = made.map(|made| (made.from.file_stem(), made.path.clone())).collect();
     Entry { id, title: loaded.title, place: loaded.place, sources, tables }
+}
+
+/// A plan as it is where nothing is measured: the page is the same before and after.
+fn without_measurements(plan: &Plan) -> Plan {
+    let mut plan = plan.clone();
+    plan.exports.retain(|export| !export.path.starts_with(MEASURED_FOLDER));
+    let is_kept = |node: &Node| !node.compute.kind().measurement && node.address.node != MEASURED_PICTURE_NODE;
+    plan.nodes.retain(is_kept);
+    plan
 }
 
 /// The digest of all addresses, kinds and edges.

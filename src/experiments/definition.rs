@@ -28,6 +28,8 @@ pub const PDF_FILE: &str = "picture.pdf";
 pub const FINDINGS_FILE: &str = "findings.json";
 /// The name of the node that draws an experiment.
 pub const PICTURE_NODE: &str = "picture";
+/// The name of the node that draws what an experiment measured.
+pub const MEASURED_PICTURE_NODE: &str = "measured-picture";
 /// The name of the node that holds an experiment's values and claims.
 pub const FINDINGS_NODE: &str = "findings";
 
@@ -266,7 +268,7 @@ fn add_measurements<P: Serialize + Clone + Send + Sync + 'static>(
     let reader =
         Picturing { id: id.to_owned(), params: params.clone(), kind: measured.picture_kind, draw: measured.picture };
     let mut picture =
-        Node::new(Address::new(id, "measured-picture"), reader).map_err(undescribable)?.origin(CONFIG, "");
+        Node::new(Address::new(id, MEASURED_PICTURE_NODE), reader).map_err(undescribable)?.origin(CONFIG, "");
     let mut export = |path: String, from: &Address, artifact: &str| {
         plan.exports.push(Export { path, from: from.clone(), artifact: artifact.to_owned() });
     };
