@@ -95,7 +95,7 @@ fn theta_by_phi(form: Form) -> Result<Test, Unexamined> {
         };
         worst.compare(x, theta.to_f64(), 0.0);
     }
-    Ok(worst.at_most(1e-10, "rounding of an integration, and Gauss-Legendre with eight panels"))
+    Ok(worst.at_most(1e-12, "rounding of an integration, and Gauss-Legendre with eight panels"))
 }
 
 /// `y` of the first conjugate point, and its time in units of `T/4`.
@@ -124,7 +124,7 @@ fn conjugacy(form: Form) -> Result<Test, Unexamined> {
         };
         worst.see(((left - right) / (left.abs() + start.abs() + change.abs())).to_f64());
     }
-    Ok(worst.at_most(1e-9, "rounding of an integration, and Gauss-Legendre with eight panels"))
+    Ok(worst.at_most(1e-11, "rounding of an integration, and Gauss-Legendre with eight panels"))
 }
 
 fn right_side_is_positive(form: Form) -> Result<Test, Unexamined> {
@@ -187,7 +187,7 @@ fn over_strip(motion: &Motion) -> Wide {
 }
 
 fn motion_of_locus(form: Form) -> Result<Test, Unexamined> {
-    identity(1013, 100, 1e-10, "difference quotients, and Gauss-Legendre with eight panels", |samples| {
+    identity(1013, 100, 1e-11, "difference quotients, and Gauss-Legendre with eight panels", |samples| {
         let (motion, phi0, step) = locus_start(samples);
         let (body, p, equator) = (motion.body, motion.p, Wide::PI / wide(2.0));
         let y = locus(&body, phi0, p)[2];
@@ -205,7 +205,7 @@ fn motion_of_locus(form: Form) -> Result<Test, Unexamined> {
 }
 
 fn tangent_of_locus(form: Form) -> Result<Test, Unexamined> {
-    identity(1014, 100, 1e-10, "difference quotients of the closed form", |samples| {
+    identity(1014, 100, 1e-12, "difference quotients of the closed form", |samples| {
         let (motion, phi0, step) = locus_start(samples);
         let (body, p) = (motion.body, motion.p);
         let y = locus(&body, phi0, p)[2];
@@ -309,7 +309,7 @@ fn angle_of_equator(form: Form) -> Result<Test, Unexamined> {
         worst.compare(found.t1, time, 0.0);
         worst.compare(found.x, angle, 0.0);
     }
-    Ok(worst.at_most(1e-11, "rounding of an integration over half a turn"))
+    Ok(worst.at_most(1e-12, "rounding of an integration over half a turn"))
 }
 
 const PROOF: &str = "proof of Theorem 3.24";

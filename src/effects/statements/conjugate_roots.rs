@@ -328,7 +328,7 @@ fn equation_20(form: Form) -> Result<Test, Unexamined> {
         let left = |t: f64| left_of_20(&motion, wide(t) * motion.speed, form).to_f64();
         worst.compare(second / second_rate * first_rate / first, left(late) / left(early), 0.0);
     }
-    Ok(worst.at_most(1e-10, "rounding of an integration over two turns"))
+    Ok(worst.at_most(1e-11, "rounding of an integration over two turns"))
 }
 
 fn rotations_have_none(form: Form) -> Result<Test, Unexamined> {

@@ -151,7 +151,7 @@ fn motion_and_phase(samples: &mut Samples) -> (Motion, Wide) {
 }
 
 fn determinant_of_place(form: Form) -> Result<Test, Unexamined> {
-    super::bodies::identity(605, 100, 1e-11, "error of a difference quotient of fourth order", |samples| {
+    super::bodies::identity(605, 100, 1e-12, "error of a difference quotient of fourth order", |samples| {
         let (motion, phase) = motion_and_phase(samples);
         let t = phase / motion.speed;
         let part = motion.cosine0 * motion.cosine0;
@@ -234,7 +234,7 @@ fn equation_15(form: Form) -> Result<Test, Unexamined> {
         let residual = lambda * phase - phase + rest_of_i(&motion, phase);
         worst.see((residual / (Wide::ONE / (j.sn * j.sn) - lambda) / phase).to_f64());
     }
-    Ok(worst.at_most(1e-11, "rounding of an integration, times the condition of the problem"))
+    Ok(worst.at_most(1e-12, "rounding of an integration, times the condition of the problem"))
 }
 
 fn zeros_of_sn(form: Form) -> Result<Test, Unexamined> {
@@ -277,7 +277,7 @@ fn starts_at_rest(form: Form) -> Result<Test, Unexamined> {
             worst.compare(time, expected, 0.0);
         }
     }
-    Ok(worst.at_most(1e-11, "rounding of an integration over three half periods"))
+    Ok(worst.at_most(1e-12, "rounding of an integration over three half periods"))
 }
 
 fn sine_of_start(form: Form) -> Result<Test, Unexamined> {
@@ -310,7 +310,7 @@ fn root_of_start(form: Form) -> Result<Test, Unexamined> {
 }
 
 fn whole_determinant(form: Form) -> Result<Test, Unexamined> {
-    super::bodies::identity(613, 100, 1e-11, "error of a difference quotient of fourth order", |samples| {
+    super::bodies::identity(613, 100, 1e-12, "error of a difference quotient of fourth order", |samples| {
         let (motion, phase) = motion_and_phase(samples);
         let (t, y0, p, p_y) = (phase / motion.speed, motion.y0(), motion.p, motion.p_y());
         let Body { a, b, c } = motion.body;

@@ -309,7 +309,7 @@ fn polhodes_close(form: Form) -> Result<Test, Unexamined> {
         let end = after(&body, m, period)?;
         (0..3).for_each(|i| worst.see((end[i] - m[i]) / g2.sqrt()));
     }
-    Ok(worst.at_most(1e-10, "rounding of an integration over a period, magnified near the separating polhodes"))
+    Ok(worst.at_most(1e-12, "rounding of an integration over a period, magnified near the separating polhodes"))
 }
 
 fn steady_rotations(form: Form) -> Result<Test, Unexamined> {

@@ -77,7 +77,7 @@ fn return_formula(form: Form) -> Result<Test, Unexamined> {
         let grown = states(&motion, motion.p_y().to_f64(), &[half])?[0][0];
         worst.compare(grown, first_return(&motion.body, motion.p, form).to_f64(), 0.0);
     }
-    Ok(worst.at_most(1e-11, "rounding of an integration over half a period"))
+    Ok(worst.at_most(1e-12, "rounding of an integration over half a period"))
 }
 
 /// `T/4 = K/M`.
@@ -186,7 +186,63 @@ fn potential(form: Form) -> Result<Test, Unexamined> {
         };
         worst.see(rate * rate + v - 1.0);
     }
-    Ok(worst.at_most(1e-11, "rounding of an integration over a period"))
+    Ok(worst.at_most(1e-12, "rounding of an integration over a period"))
+}
+
+fn falls_and_is_convex(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(1020), Cases::default());
+    for _ in 0..100 {
+        let (body, p) = body_and_clairaut(&mut samples);
+        let h = step_of(&body, p);
+        let (falls, bends) = match form {
+            1 => (quarter(&body, p) - quarter(&body, p - wide(h)) > Wide::ZERO, true),
+            _ => {
+                let first = |p: Wide| fine_slope(|p| first_return(&body, p, 0), p, h);
+                let bend = fine_slope(first, p, h);
+                (first(p) < Wide::ZERO, if form == 2 { bend < Wide::ZERO } else { bend > Wide::ZERO })
+            }
+        };
+        cases.see(falls && bends, || format!("p_θ = {} on {:?}", p.to_f64(), body.short()));
+    }
+    Ok(cases.none())
+}
+
+fn gray_zone(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(1021), Cases::default());
+    for _ in 0..400 {
+        let body = Body::any(&mut samples);
+        let Body { a, b, c } = body;
+        // Constants close to the ends of the zone too.
+        let end = [a, b, c][(samples.even(0.0, 3.0) as usize).min(2)];
+        let p = wide(1.0 + samples.sign() * samples.log(1e-6, 0.5)) / end.sqrt();
+        let v = |phi: Wide| p * p * z_at(&body, phi);
+        // Turning points inside the strip: V is at most 1 on the equator and at least 1 at the edge.
+        let turns = v(Wide::ZERO) <= Wide::ONE && v(half_width(&body)) >= Wide::ONE;
+        let (low, high) = match form {
+            1 => (c, a),
+            2 => (c, b),
+            _ => (b, a),
+        };
+        let inside = low * p * p >= Wide::ONE && high * p * p <= Wide::ONE;
+        cases.see(turns == inside, || format!("p_θ = {} on {:?}", p.to_f64(), body.short()));
+    }
+    Ok(cases.none())
+}
+
+fn cut_ray(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(1022), Cases::default());
+    for _ in 0..200 {
+        let (body, phi0) = body_and_phi(&mut samples);
+        let z0 = z_at(&body, phi0);
+        let (low, high) = (Wide::ONE / body.b.sqrt(), Wide::ONE / if form == 2 { body.a.sqrt() } else { z0.sqrt() });
+        let p = low + (high - low) * wide(unit(&mut samples));
+        // Both branches of p_θ meet on the ray at θ = Δθ(p_θ); its end is the cusp's angle, and it has no other one.
+        let (here, end) = (first_return(&body, p, 0), first_return(&body, Wide::ONE / z0.sqrt(), 0));
+        let far = first_return(&body, low + (p - low) * wide(1e-4), 0);
+        let holds = if form == 1 { here < end } else { here > end };
+        cases.see(holds && far > here, || format!("φ0 α/K = {}", (phi0 / half_width(&body)).to_f64()));
+    }
+    Ok(cases.none())
 }
 
 const PLACE: &str = "section 3.3.3";
@@ -266,6 +322,39 @@ pub const ALL: &[Statement] = &[
         &["as printed", "z for z/2", "p_θ for p_θ²"],
         potential,
         "",
+    ),
+    direct(
+        [
+            "return_falls_and_is_convex",
+            "Proposition 3.23",
+            "Δθ(p_θ) is strictly decreasing and strictly convex on (B^(−1/2), A^(−1/2)): the flow is tame.",
+            BY_SLOPES,
+        ],
+        &["as printed", "the period grows", "concave"],
+        falls_and_is_convex,
+        "",
+    ),
+    direct(
+        [
+            "gray_zone",
+            "Figure 2 and the text before it",
+            "For B^(−1/2) ≤ p_θ ≤ A^(−1/2), and for no other constant, V reaches 1 in the strip |φ| ≤ K(k)/α: the trajectories turn there.",
+            "V on the equator and at the edge, p_θ close to the ends too",
+        ],
+        &["as printed", "C for B", "between C^(−1/2) and B^(−1/2)"],
+        gray_zone,
+        "",
+    ),
+    direct(
+        [
+            "cut_ray",
+            "section 5.1, Figure 3",
+            "Extremals of one p_θ from (0, φ0) meet at (Δθ(p_θ), −φ0): these points form the ray θ ≥ θ*(φ0), θ* = Δθ(√μ(φ0)) being the cusp's angle.",
+            "printed first return at random φ0 and p_θ, and close to the separatrix",
+        ],
+        &["as printed", "θ ≤ θ*", "all p_θ up to A^(−1/2)"],
+        cut_ray,
+        "That no earlier point is a cut point is looked at with the wave fronts of Figure 3.",
     ),
 ];
 

@@ -218,7 +218,7 @@ fn by_integration(form: Form, rotating: bool, component: usize) -> Result<Test, 
             }
         }
     }
-    Ok(worst.at_most(1e-11, "rounding of an integration over two periods"))
+    Ok(worst.at_most(1e-12, "rounding of an integration over two periods"))
 }
 
 fn starting_phase(form: Form, rotating: bool) -> Result<Test, Unexamined> {
@@ -260,7 +260,7 @@ fn periods(form: Form, rotating: bool) -> Result<Test, Unexamined> {
         // Quasi-periodic: x grows by the same amount in every period.
         worst.compare(path[1][0] - path[0][0], path[2][0] - path[1][0], 0.0);
     }
-    Ok(worst.at_most(1e-11, "rounding of an integration over two periods"))
+    Ok(worst.at_most(1e-12, "rounding of an integration over two periods"))
 }
 
 fn meeting(form: Form) -> Result<Test, Unexamined> {
@@ -277,7 +277,7 @@ fn meeting(form: Form) -> Result<Test, Unexamined> {
         worst.see(down[1] - y);
         worst.compare(up[0], down[0], 0.0);
     }
-    Ok(worst.at_most(1e-11, "rounding of an integration over half a period"))
+    Ok(worst.at_most(1e-12, "rounding of an integration over half a period"))
 }
 
 const PLACE: &str = "section 3.2.1";

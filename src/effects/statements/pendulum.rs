@@ -190,7 +190,7 @@ fn range_of_oscillation(form: Form) -> Result<Test, Unexamined> {
             worst.see(states(&motion, p_y, &[time])?[0][1] - end);
         }
     }
-    Ok(worst.at_most(1e-11, "rounding of an integration"))
+    Ok(worst.at_most(1e-12, "rounding of an integration"))
 }
 
 fn rotations_are_monotone(form: Form) -> Result<Test, Unexamined> {
@@ -265,7 +265,7 @@ fn reflected(form: Form) -> Result<Test, Unexamined> {
         worst.see(libm::sin(end[1] - motion.y0().to_f64()));
         worst.see((end[2] + p_y) / motion.p.to_f64());
     }
-    Ok(worst.at_most(1e-10, "rounding of an integration"))
+    Ok(worst.at_most(1e-12, "rounding of an integration"))
 }
 
 fn all_cross_the_equator(form: Form) -> Result<Test, Unexamined> {

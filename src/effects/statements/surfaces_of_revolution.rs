@@ -278,7 +278,7 @@ fn collinearity(form: Form) -> Result<Test, Unexamined> {
         };
         worst.compare(left, 0.0, x[3].abs() + x[5].abs());
     }
-    Ok(worst.at_most(1e-10, "error of a Runge-Kutta pair over a period"))
+    Ok(worst.at_most(1e-12, "error of a Runge-Kutta pair over a period"))
 }
 
 fn no_point_while_ascending(form: Form) -> Result<Test, Unexamined> {
@@ -321,7 +321,7 @@ fn period_and_return(form: Form) -> Result<Test, Unexamined> {
         let quarter = surface.after(&surface.start(), period / 4.0)?;
         worst.see(quarter[1]);
     }
-    Ok(worst.at_most(1e-10, "error of a Runge-Kutta pair over half a period"))
+    Ok(worst.at_most(1e-12, "error of a Runge-Kutta pair over half a period"))
 }
 
 fn slopes_of_both(form: Form) -> Result<Test, Unexamined> {
@@ -385,7 +385,7 @@ fn equation_24(form: Form) -> Result<Test, Unexamined> {
         };
         worst.see((left / tail).to_f64());
     }
-    Ok(worst.at_most(1e-9, "error of the integration, magnified where the geodesic turns"))
+    Ok(worst.at_most(1e-11, "error of the integration, magnified where the geodesic turns"))
 }
 
 fn energy_of_field(form: Form) -> Result<Test, Unexamined> {
