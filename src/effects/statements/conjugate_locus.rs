@@ -425,7 +425,7 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "η(0) = cn(0|m) = 1" },
         forms: &["as printed", "cn", "sn", "cn at K"],
         examine: values_at_rest,
-        note: "cn⁻¹(0|m) is K(m).",
+        note: "cn⁻¹(0|m) is K(m). Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     Statement {
         id: "phases_at_rest",
@@ -435,7 +435,7 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "ψ0 = 0 mod 2K(m): ψ0 is a phase, no time" },
         forms: &["as printed", "mod 2K", "mod K", "mod K/2"],
         examine: phases_at_rest,
-        note: "",
+        note: "Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     direct(
         [

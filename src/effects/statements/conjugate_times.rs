@@ -396,7 +396,7 @@ pub const ALL: &[Statement] = &[
         forms: &["as printed", "without the minus", "1 − ξ1 sn² for its square", "W + T in Δ_T"],
         examine: determinant_of_place,
         note: "The minus belongs to (16), which lacks it: the product (19) is right. cn, dn, sn stand for the functions at Mt + ψ0, not for \
-               their squares; the text at hand says squares just before, and x3 − x1 for ξ3 − ξ1.",
+               their squares; the text at hand says squares just before, and x3 − x1 for ξ3 − ξ1. Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     Statement {
         id: "y_by_xi",
@@ -406,7 +406,7 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "the same with a minus sign" },
         forms: &["as printed", "with the minus", "√(1 − ξ1 sn²) above", "cn² below"],
         examine: y_by_xi,
-        note: "No zero of the determinant depends on it.",
+        note: "No zero of the determinant depends on it. Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     direct(
         [
@@ -461,7 +461,7 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "sn0/dn0 for sn0" },
         forms: &["as printed", "with dn0", "sn0 dn0", "sn0/cn0"],
         examine: root_of_start,
-        note: "dn0 → 1 for ψ0 → 0, where the proof uses it.",
+        note: "dn0 → 1 for ψ0 → 0, where the proof uses it. Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     direct(
         [
