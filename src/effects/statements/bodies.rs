@@ -35,10 +35,11 @@ pub fn slope(f: impl Fn(Wide) -> Wide, at: Wide, step: f64) -> Wide {
 
 /// The derivative by the central difference of eighth order: for second derivatives and beside singularities.
 pub fn fine_slope(f: impl Fn(Wide) -> Wide, at: Wide, step: f64) -> Wide {
-    let difference = |count: f64| f(at + wide(count * step)) - f(at - wide(count * step));
+    let h = wide(step);
+    let difference = |count: f64| f(at + wide(count) * h) - f(at - wide(count) * h);
     let sum = wide(672.0) * difference(1.0) - wide(168.0) * difference(2.0) + wide(32.0) * difference(3.0)
         - wide(3.0) * difference(4.0);
-    sum / wide(840.0 * step)
+    sum / (wide(840.0) * h)
 }
 
 /// The integral over `(from, to)` by the rule of Gauss and Legendre with ten points on each of `pieces` equal parts.
@@ -61,13 +62,6 @@ pub fn integral(f: impl Fn(Wide) -> Wide, from: Wide, to: Wide, pieces: usize) -
         }
     }
     sum * half
-}
-
-/// The mean of a function over a period of `2π`, from values at equal distances: the error falls exponentially with their number.
-pub fn mean_over_turn(f: impl Fn(f64) -> f64, values: u32) -> f64 {
-    let step = 2.0 * std::f64::consts::PI / f64::from(values);
-    let sum: f64 = (0..values).map(|i| f(step * (f64::from(i) + 0.5))).sum();
-    sum / f64::from(values)
 }
 
 /// Compares the two sides of an identity at `cases` random points, relative to the larger of them and of the third number.

@@ -4,6 +4,7 @@
 //! (9), or, where they are differentiated by `p_θ`, the closed form of the `geometry` room in double-double.
 
 use super::bodies::{Body, Motion, Wide, direct, exact, identity, integral, slope, unit, wide};
+use super::conjugate_times::slopes;
 use super::darboux_form::{body_and_phi, jacobi, z_at};
 use super::first_return::{body_and_clairaut, constants, first_return, motion, step_of};
 use super::pendulum::states;
@@ -209,14 +210,21 @@ fn tangent_of_locus(form: Form) -> Result<Test, Unexamined> {
         let (motion, phi0, step) = locus_start(samples);
         let (body, p) = (motion.body, motion.p);
         let y = locus(&body, phi0, p)[2];
-        let by = |i: usize| slope(|p| locus(&body, phi0, p)[i], p, step);
+        let [by_theta, by_phi] = slopes(
+            |p| {
+                let [theta, phi, _] = locus(&body, phi0, p);
+                [theta, phi]
+            },
+            p,
+            step,
+        );
         let f_there = f(body.z_half(y), p)[0];
         let right = match form {
-            1 => f_there * by(1),
-            2 => -(by(1) / f_there),
-            _ => -(f_there * by(1)),
+            1 => f_there * by_phi,
+            2 => -(by_phi / f_there),
+            _ => -(f_there * by_phi),
         };
-        [by(0), right, Wide::ZERO]
+        [by_theta, right, Wide::ZERO]
     })
 }
 
@@ -425,7 +433,7 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "η(0) = cn(0|m) = 1" },
         forms: &["as printed", "cn", "sn", "cn at K"],
         examine: values_at_rest,
-        note: "cn⁻¹(0|m) is K(m).",
+        note: "cn⁻¹(0|m) is K(m). Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     Statement {
         id: "phases_at_rest",
@@ -435,7 +443,7 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "ψ0 = 0 mod 2K(m): ψ0 is a phase, no time" },
         forms: &["as printed", "mod 2K", "mod K", "mod K/2"],
         examine: phases_at_rest,
-        note: "",
+        note: "Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     direct(
         [

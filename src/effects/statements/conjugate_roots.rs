@@ -382,7 +382,7 @@ pub const ALL: &[Statement] = &[
         },
         forms: &["as printed", "on (−2iK − ψ0, −2iK)", "on (−2iK, −2iK + ψ0)", "on (−2(i+1)K, −2iK − ψ0)"],
         examine: negative_roots,
-        note: "The printed intervals overlap, and each holds a second root.",
+        note: "The printed intervals overlap, and each holds a second root. Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     direct(
         ["no_root_behind_poles", PROOF, "There is no root on (2iK − ψ0, 2iK), i = 1, 2, …", COUNTED],
@@ -482,7 +482,7 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "dξ1/dp_x = −4h/((B − A) p_x³)" },
         forms: &["as printed", "with B − A", "the sign", "p_x² below"],
         examine: slope_of_xi1,
-        note: "",
+        note: "Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     direct(
         [

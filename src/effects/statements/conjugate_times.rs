@@ -38,10 +38,17 @@ fn energy_constants(&Body { a, b, c }: &Body, p_x: Wide, h: Wide) -> [Wide; 2] {
     [((b - a) * (c * p_x * p_x - h2)).sqrt(), (h2 / (p_x * p_x) - a) / (b - a)]
 }
 
+/// The derivatives of two functions by the central difference of fourth order.
+pub fn slopes(f: impl Fn(Wide) -> [Wide; 2], at: Wide, step: f64) -> [Wide; 2] {
+    let h = wide(step);
+    let (far_back, back, on, far_on) = (f(at - h - h), f(at - h), f(at + h), f(at + h + h));
+    [0, 1].map(|i| (wide(8.0) * (on[i] - back[i]) - (far_on[i] - far_back[i])) / (wide(12.0) * h))
+}
+
 fn jacobian(f: impl Fn(Wide, Wide) -> [Wide; 2], x: Wide, y: Wide, step: f64) -> Wide {
-    let by_x = |i: usize| slope(|x| f(x, y)[i], x, step * x.to_f64());
-    let by_y = |i: usize| slope(|y| f(x, y)[i], y, step * y.to_f64());
-    by_x(0) * by_y(1) - by_y(0) * by_x(1)
+    let by_x = slopes(|x| f(x, y), x, step * x.to_f64());
+    let by_y = slopes(|y| f(x, y), y, step * y.to_f64());
+    by_x[0] * by_y[1] - by_y[0] * by_x[1]
 }
 
 fn initial_impulse(form: Form) -> Result<Test, Unexamined> {
@@ -396,7 +403,7 @@ pub const ALL: &[Statement] = &[
         forms: &["as printed", "without the minus", "1 − ξ1 sn² for its square", "W + T in Δ_T"],
         examine: determinant_of_place,
         note: "The minus belongs to (16), which lacks it: the product (19) is right. cn, dn, sn stand for the functions at Mt + ψ0, not for \
-               their squares; the text at hand says squares just before, and x3 − x1 for ξ3 − ξ1.",
+               their squares; the text at hand says squares just before, and x3 − x1 for ξ3 − ξ1. Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     Statement {
         id: "y_by_xi",
@@ -406,7 +413,7 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "the same with a minus sign" },
         forms: &["as printed", "with the minus", "√(1 − ξ1 sn²) above", "cn² below"],
         examine: y_by_xi,
-        note: "No zero of the determinant depends on it.",
+        note: "No zero of the determinant depends on it. Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     direct(
         [
@@ -461,7 +468,7 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "sn0/dn0 for sn0" },
         forms: &["as printed", "with dn0", "sn0 dn0", "sn0/cn0"],
         examine: root_of_start,
-        note: "dn0 → 1 for ψ0 → 0, where the proof uses it.",
+        note: "dn0 → 1 for ψ0 → 0, where the proof uses it. Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     direct(
         [

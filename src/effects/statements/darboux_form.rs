@@ -85,11 +85,11 @@ fn parameter_k(form: Form) -> Result<Test, Unexamined> {
 
 /// `φ(y)` by quadrature.
 fn phi_of(body: &Body, y: Wide) -> Wide {
-    integral(|y| Wide::ONE / (body.c - body.z_half(y)).sqrt(), Wide::PI / wide(2.0), y, 24)
+    integral(|y| Wide::ONE / (body.c - body.z_half(y)).sqrt(), Wide::PI / wide(2.0), y, 12)
 }
 
 fn inverse_cosine(form: Form) -> Result<Test, Unexamined> {
-    super::bodies::identity(804, 100, 1e-12, "Gauss-Legendre with 24 panels of ten points", |samples| {
+    super::bodies::identity(804, 100, 1e-12, "Gauss-Legendre with twelve panels of ten points", |samples| {
         let body = Body::ordinary(samples);
         let before = samples.even(0.05, 1.5);
         let y = if form == 1 { Wide::PI - wide(before) } else { wide(before) };
@@ -105,7 +105,7 @@ fn inverse_cosine(form: Form) -> Result<Test, Unexamined> {
 }
 
 fn sine_of_y(form: Form) -> Result<Test, Unexamined> {
-    super::bodies::identity(805, 100, 1e-12, "Gauss-Legendre with 24 panels of ten points", |samples| {
+    super::bodies::identity(805, 100, 1e-12, "Gauss-Legendre with twelve panels of ten points", |samples| {
         let body = Body::ordinary(samples);
         let y = wide(samples.even(0.0, 3.1));
         let j = jacobi(&body, phi_of(&body, y));

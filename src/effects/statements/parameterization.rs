@@ -160,7 +160,7 @@ fn speed_m(form: Form) -> Result<Test, Unexamined> {
 }
 
 fn definitions(form: Form) -> Result<Test, Unexamined> {
-    super::bodies::identity(509, 100, 1e-14, "Gauss-Legendre with 12 panels of 10 points", |samples| {
+    super::bodies::identity(509, 100, 1e-14, "Gauss-Legendre with six panels of 10 points", |samples| {
         let (x, m) = (wide(samples.even(-1.4, 1.4)), wide(samples.even(0.01, 0.95)));
         let n = wide(samples.even(-2.0, 0.9));
         let used = if form == 1 { m * m } else { m };
@@ -169,12 +169,12 @@ fn definitions(form: Form) -> Result<Test, Unexamined> {
         let root = |u: Wide| (one - used * u.sin() * u.sin()).sqrt();
         if samples.sign() > 0.0 {
             [
-                integral(|u| if form == 2 { one / root(u) } else { root(u) }, Wide::ZERO, x, 12),
+                integral(|u| if form == 2 { one / root(u) } else { root(u) }, Wide::ZERO, x, 6),
                 incomplete_e(x, m, one - m),
                 Wide::ZERO,
             ]
         } else {
-            let value = integral(|u| one / ((one - sign * n * u.sin() * u.sin()) * root(u)), Wide::ZERO, x, 12);
+            let value = integral(|u| one / ((one - sign * n * u.sin() * u.sin()) * root(u)), Wide::ZERO, x, 6);
             [value, incomplete_pi(x, n, one - n, m, one - m), Wide::ZERO]
         }
     })

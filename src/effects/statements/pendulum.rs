@@ -244,7 +244,7 @@ fn separatrix_joins(form: Form) -> Result<Test, Unexamined> {
         let fall = ((path[0][1] - end) / (path[1][1] - end)).abs();
         worst.see(libm::log(fall) / (rate.sqrt().to_f64() * turn) - 1.0);
     }
-    Ok(worst.at_most(1e-3, "the square of the distance, and rounding that the unstable equilibrium magnifies"))
+    Ok(worst.at_most(1e-5, "the square of the distance, and rounding that the unstable equilibrium magnifies"))
 }
 
 fn reflected(form: Form) -> Result<Test, Unexamined> {

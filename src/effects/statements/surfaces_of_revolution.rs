@@ -438,7 +438,7 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "p_θ in (0, √μ(φ0))" },
         forms: &["as printed", "√μ", "μ²", "1/√μ"],
         examine: range_of_clairaut,
-        note: "Lemma 3.14 and Definition 3.15 have the root.",
+        note: "Lemma 3.14 and Definition 3.15 have the root. Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
     direct(
         [
