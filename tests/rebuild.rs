@@ -90,7 +90,7 @@ fn a_rebuild_changes_the_fingerprints_that_were_foreseen() {
         let edited = lines
             .lines
             .iter()
-            .map(|(file, old)| (file.clone(), if file == EDITED.0 { digest.clone() } else { old.clone() }));
+            .map(|(file, old)| (file.clone(), if file == EDITED.0 { digest.clone().into() } else { old.clone() }));
         let listing = serde_json::to_value(CodeListing::new(edited).digest).expect("text");
         stale += usize::from(foreseen["kinds"][name] != listing);
         foreseen["kinds"][name] = listing;
