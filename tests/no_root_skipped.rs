@@ -8,7 +8,7 @@ use polhode::geometry::rotation_group::attitude_route::first_conjugate_times_by_
 use polhode::geometry::rotation_group::body_flow::BodyFlow;
 use polhode::geometry::rotation_group::conjugate::first_conjugate_times;
 use polhode::geometry::rotation_group::metric::Metric;
-use polhode::geometry::spin::conjugate::{conjugate_count, first_conjugate_point};
+use polhode::geometry::spin::conjugate::{Arithmetic, conjugate_count, first_conjugate_point};
 use polhode::geometry::spin::extremal::Extremal;
 use polhode::geometry::spin::lift::first_conjugate_time_by_integration;
 use polhode::geometry::spin::solve::{Quantity, solve};
@@ -81,6 +81,15 @@ fn spin_reference(k: f64, p_theta: f64) -> DoubleDouble {
     solve(&extremal, Quantity::Phase, DoubleDouble::ONE).unwrap().t
 }
 
+/// `floor(Θ/π)` at `t (1 + beside)`, in double-double.
+fn count_in_double_double(k: f64, p_theta: f64, t: f64, beside: f64) -> u32 {
+    let extremal = Extremal::new(DoubleDouble::from_f64(k), DoubleDouble::from_f64(p_theta.abs()));
+    let t = DoubleDouble::from_f64(t) * (DoubleDouble::ONE + DoubleDouble::from_f64(beside));
+    let state = extremal.state_near(t);
+    let phase = state.phase_beyond(DoubleDouble::ZERO) + (t - state.t) * state.phase_rate(&extremal);
+    (phase / DoubleDouble::PI).to_f64().floor() as u32
+}
+
 #[test]
 fn the_first_conjugate_time_of_the_spin_problem() {
     // Oracles: the phase Θ in double-double arithmetic (the same formulas, 32 digits); the count floor(Θ/π).
@@ -91,8 +100,11 @@ fn the_first_conjugate_time_of_the_spin_problem() {
         let reference = spin_reference(k, p_theta);
         let off = ((DoubleDouble::from_f64(point.t1) - reference) / reference).to_f64().abs();
         assert!(off <= point.error, "k = {k}, p_theta = {p_theta}: off by {off:e}, error {:e}", point.error);
-        // The count has Θ's own rounding: t1 ± twice the error is clear of it.
-        let count = |sign: f64| conjugate_count(&start, point.t1 * (1.0 + sign * 2.0 * point.error)).unwrap();
+        // The count has Θ's own rounding: t1 ± twice the error is clear of it, where both are in the same arithmetic.
+        let count = |sign: f64| match point.arithmetic {
+            Arithmetic::F64 => conjugate_count(&start, point.t1 * (1.0 + sign * 2.0 * point.error)).unwrap(),
+            Arithmetic::DoubleDouble => count_in_double_double(k, p_theta, point.t1, sign * 2.0 * point.error),
+        };
         assert_eq!((count(-1.0), count(1.0)), (0, 1), "k = {k}, p_theta = {p_theta}: {point:?}");
         ratios.push(off / point.error);
         errors.push(point.error);

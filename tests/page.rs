@@ -64,7 +64,12 @@ fn every_link_resolves() {
     assert!(html.matches("<svg").count() >= html.matches("role=\"img\"").count());
     let size = html.len();
     assert!(size < 5_000_000, "{size} bytes");
-    assert!(!html.contains("<script src") && !html.contains("@import") && !html.contains("http://"), "the network");
+    assert!(
+        !html.contains("<script src")
+            && !html.contains("@import")
+            && !html.replace("http://www.w3.org/", "").contains("http://"),
+        "the network"
+    );
 }
 
 /// A browser session.
@@ -177,10 +182,13 @@ impl Browser {
 
     /// The whole page as a PNG.
     fn picture(&self, file: &Path) {
-        let command =
-            json!({ "cmd": "Page.captureScreenshot", "params": { "format": "png", "captureBeyondViewport": true } });
+        let width = self.run("return document.documentElement.clientWidth");
+        // Longer pictures are more than the browser can make at once.
+        let clip = json!({ "x": 0, "y": 0, "width": width, "height": 9000, "scale": 1 });
+        let parameters = json!({ "format": "png", "captureBeyondViewport": true, "clip": clip });
+        let command = json!({ "cmd": "Page.captureScreenshot", "params": parameters });
         let answer = self.call("POST", "/goog/cdp/execute", &command);
-        let data = answer["data"].as_str().expect("a picture");
+        let data = answer["data"].as_str().unwrap_or_else(|| panic!("no picture: {answer}"));
         std::fs::write(file, base64(data)).expect("written");
     }
 }

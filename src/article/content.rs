@@ -16,8 +16,8 @@ pub struct Part {
     pub picture: String,
     /// What it found.
     pub findings: Findings,
-    /// Its config and its module, as (words, link from the page).
-    pub sources: Vec<(String, String)>,
+    /// Its module in this program's source.
+    pub module: String,
     /// Its tables, by name, with the path of the Parquet file from the output folder.
     pub tables: Vec<(String, String, Table)>,
 }

@@ -90,9 +90,8 @@ pub fn add(page: &mut String, part: &Part) -> Result<(), PageError> {
         );
     }
     let _ = write!(page, " · <a href=\"../data/{id}/findings.json\">findings</a>");
-    for (words, link) in &part.sources {
-        let _ = write!(page, " · <a href=\"{}\">{}</a>", escape(link), escape(words));
-    }
+    let module = escape(&part.module);
+    let _ = write!(page, " · <a href=\"config/{id}.toml\">config</a> · source: <code>{module}</code>");
     page.push_str(
         "</p>\n<details><summary>Config values and hashes of the tables</summary>\n<table class=\"plain\">\n",
     );

@@ -96,7 +96,7 @@ mod tests {
             picture: "<svg width=\"89mm\" viewBox=\"0 0 1 1\"><title>t</title><desc>the caption</desc></svg>"
                 .to_owned(),
             findings: Findings { values: vec![], claims: vec![claim("good", 1.2346), claim("bad", 1.2)] },
-            sources: vec![("fig1.toml".to_owned(), "../../experiments/fig1.toml".to_owned())],
+            module: "src/experiments/fig1.rs".to_owned(),
             tables: vec![],
         };
         let metrics = vec![MetricEffects { metric: "spin".to_owned(), effects: vec!["geodesics".to_owned()] }];
@@ -110,7 +110,7 @@ mod tests {
         assert!(page.contains("<strong>2 statements checked</strong>") && page.contains("1 fails"), "counts");
         let table = &page[page.find("<table id=\"claims-table\"").unwrap()..];
         assert!(table.find("the value of bad").unwrap() < table.find("the value of good").unwrap());
-        assert!(page.contains("<a href=\"../../experiments/fig1.toml\">fig1.toml</a>") && page.contains("the caption"));
+        assert!(page.contains("<a href=\"config/fig1.toml\">config</a>") && page.contains("the caption"));
         assert!(!page.contains("<!--"));
         assert_eq!(super::page(&content()).unwrap(), page);
     }

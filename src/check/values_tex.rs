@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn digits_that_the_error_leaves() {
         assert_eq!(short(1.060_660_171_779_821_3, 2e-16), "1.06066");
-        assert_eq!(short(1.060_660_171_779_821_3, 3e-4), "1.06");
+        assert_eq!(short(1.060_660_171_779_821_3, 3e-4), "1.061");
         assert_eq!(short(-0.001_234_567, 1e-16), "-0.00123457");
         assert_eq!(short(1.5e-12, 1e-27), "1.50000e-12");
         assert_eq!(short(12345.678, 1.0), "12346");

@@ -59,7 +59,8 @@ struct Entry {
     id: String,
     title: &'static str,
     place: &'static str,
-    sources: Vec<(String, String)>,
+    /// Its module in this program's source.
+    module: String,
     /// Names and paths of its tables.
     tables: Vec<(String, String)>,
 }
@@ -75,25 +76,16 @@ struct PageOf {
     plans: Vec<Plan>,
 }
 
-/// Where the page finds configs and modules; none where they do not lie beside the output folder.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Places {
-    /// Whether `../../experiments` leads to the configs.
-    pub configs: bool,
-    /// Whether `../../src` leads to this program's source.
-    pub source: bool,
-}
-
 /// The plan that makes the page.
 ///
 /// # Errors
 /// Parameters that can't be written in a manifest.
-pub fn plan(experiments: &[Loaded], places: Places) -> Result<Plan, NodeError> {
+pub fn plan(experiments: &[Loaded]) -> Result<Plan, NodeError> {
     let defect = |error: crate::contract::manifest::NotDescribable| NodeError::new(error.to_string());
     let mut in_order: Vec<&Loaded> = experiments.iter().collect();
     let rank = |loaded: &&Loaded| experiments::ALL.iter().position(|known| known.kind == loaded.kind);
     in_order.sort_by_key(rank);
-    let entries: Vec<Entry> = in_order.iter().map(|loaded| entry(loaded, places)).collect();
+    let entries: Vec<Entry> = in_order.iter().map(|loaded| entry(loaded)).collect();
     let metrics = METRICS
         .iter()
         .map(|(metric, effects)| (*metric, effects.iter().map(|effect| effect.name()).collect()))
@@ -124,18 +116,11 @@ pub fn plan(experiments: &[Loaded], places: Places) -> Result<Plan, NodeError> {
     Ok(Plan { id: ID.to_owned(), nodes: vec![loci, node], exports, ..Plan::default() })
 }
 
-fn entry(loaded: &Loaded, places: Places) -> Entry {
-    let id = loaded.plan.id.clone();
-    let mut sources = Vec::new();
-    if places.configs {
-        sources.push((format!("{id}.toml"), format!("../../experiments/{id}.toml")));
-    }
-    if places.source {
-        sources.push((format!("{}.rs", loaded.kind), format!("../../src/experiments/{}.rs", loaded.kind)));
-    }
+fn entry(loaded: &Loaded) -> Entry {
+    let (id, module) = (loaded.plan.id.clone(), format!("src/experiments/{}.rs", loaded.kind));
     let made = loaded.plan.exports.iter().filter(|made| made.artifact == TABLE && made.path.starts_with("data/"));
     let tables = made.map(|made| (made.from.file_stem(), made.path.clone())).collect();
-    Entry { id, title: loaded.title, place: loaded.place, sources, tables }
+    Entry { id, title: loaded.title, place: loaded.place, module, tables }
 }
 
 /// A plan as it is where nothing is measured: the page is the same before and after.
@@ -163,8 +148,18 @@ fn graph_picture(plans: &[Plan]) -> Result<String, NodeError> {
         .map_err(|errors| NodeError::new(errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")))?;
     let selection = graph.all();
     let svg = render(&graph, &selection, Format::Svg);
-    // Inside a page there is no prologue.
-    Ok(svg.find("<svg").map_or(String::new(), |start| svg[start..].to_owned()))
+    // Inside a page there is no prologue, and rules of style must not reach beyond the picture.
+    let picture = svg.find("<svg").map_or("", |start| &svg[start..]);
+    let Some(((before, style), after)) = picture
+        .split_once("<style>")
+        .and_then(|(before, rest)| Some((before, rest.split_once("</style>")?)))
+        .map(|(before, (style, after))| ((before, style), after))
+    else {
+        return Ok(picture.to_owned());
+    };
+    let scoped: String = style.split_inclusive('}').map(|rule| format!(".graph {rule}")).collect();
+    let before = before.replacen("<svg", "<svg class=\"graph\"", 1);
+    Ok(format!("{before}<style>{scoped}</style>{after}"))
 }
 
 fn picture_input(id: &str) -> String {
@@ -191,7 +186,7 @@ impl Compute for PageOf {
     fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
         let mut parts = Vec::new();
         let mut artifacts = Vec::new();
-        for Entry { id, title, place, sources, tables } in &self.entries {
+        for Entry { id, title, place, module, tables } in &self.entries {
             let picture = String::from_utf8_lossy(&inputs.get(&picture_input(id))?.bytes).into_owned();
             let findings = collected::findings(&inputs.get(&findings_input(id))?.bytes)?;
             let mut read = Vec::new();
@@ -207,7 +202,7 @@ impl Compute for PageOf {
                 place: (*place).to_owned(),
                 picture,
                 findings,
-                sources: sources.clone(),
+                module: module.clone(),
                 tables: read,
             });
         }

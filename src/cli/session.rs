@@ -5,8 +5,8 @@ use crate::cli::arguments::PlaceArguments;
 use crate::cli::collected;
 use crate::cli::console;
 use crate::cli::exit::Exit;
-use crate::cli::page::{self, Places};
-use crate::cli::workspace::{EXPERIMENTS, FIGURES, Loaded, Workspace, WorkspaceError};
+use crate::cli::page;
+use crate::cli::workspace::{Loaded, Workspace, WorkspaceError};
 use crate::contract::accuracy::Accuracy;
 use crate::contract::node::Address;
 use crate::contract::value::Findings;
@@ -114,7 +114,7 @@ impl Session {
             let plan = collected::plan(&ids);
             plans.push(plan.map_err(|error| Refused { exit: Exit::Defect, text: error.to_string() })?);
             if workspace.accuracy.is_none_or(|level| level == Accuracy::Article) {
-                let plan = page::plan(&experiments, places(&workspace));
+                let plan = page::plan(&experiments);
                 plans.push(plan.map_err(|error| Refused { exit: Exit::Defect, text: error.to_string() })?);
             }
         }
@@ -181,13 +181,6 @@ impl Session {
         }
         stale
     }
-}
-
-/// What the page can link to: configs and source, where they lie where the repository has them.
-fn places(workspace: &Workspace) -> Places {
-    let is_usual =
-        workspace.out == workspace.root.join(FIGURES) && workspace.experiments == workspace.root.join(EXPERIMENTS);
-    Places { configs: is_usual, source: is_usual && workspace.root.join("src/experiments/scene.rs").is_file() }
 }
 
 /// The folders below the output folder that hold other things: measurements, other levels of accuracy.

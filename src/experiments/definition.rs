@@ -24,6 +24,8 @@ use serde::{Serialize, Serializer};
 pub const PICTURE_FILE: &str = "picture.svg";
 /// The other output of a picture node: the same page for LaTeX.
 pub const PDF_FILE: &str = "picture.pdf";
+/// A picture node's third output: the values of its config, without comments, as a config that makes the same figure.
+pub const CONFIG_FILE: &str = "config.toml";
 /// The output of a findings node.
 pub const FINDINGS_FILE: &str = "findings.json";
 /// The name of the node that draws an experiment.
@@ -232,7 +234,8 @@ fn plan<D: Definition>(id: &str, source: &ConfigSource, request: Request) -> Res
     }
     let readers: [(&str, &str, Node); 2] = [
         (PICTURE_FILE, "svg", {
-            let reader = Picturing { id: id.to_owned(), params: params.clone(), kind: D::PICTURE, draw: drawn::<D> };
+            let (id, params) = (id.to_owned(), params.clone());
+            let reader = Picturing { id: id.clone(), params, kind: D::PICTURE, draw: drawn::<D>, of: D::ID };
             Node::new(Address::new(id, PICTURE_NODE), reader).map_err(undescribable)?.origin(CONFIG, "")
         }),
         (FINDINGS_FILE, "json", {
@@ -246,8 +249,12 @@ fn plan<D: Definition>(id: &str, source: &ConfigSource, request: Request) -> Res
         let path = if ending == "svg" { format!("{id}.svg") } else { format!("data/{id}/{FINDINGS_FILE}") };
         plan.exports.push(Export { path, from: node.address.clone(), artifact: artifact.to_owned() });
         if ending == "svg" {
-            let path = format!("article/pdf/{id}.pdf");
-            plan.exports.push(Export { path, from: node.address.clone(), artifact: PDF_FILE.to_owned() });
+            let files =
+                [(format!("article/pdf/{id}.pdf"), PDF_FILE), (format!("article/config/{id}.toml"), CONFIG_FILE)];
+            plan.exports.extend(files.map(|(path, artifact)| {
+                let (from, artifact) = (node.address.clone(), artifact.to_owned());
+                Export { path, from, artifact }
+            }));
         }
         plan.nodes.push(node);
     }
@@ -265,8 +272,8 @@ fn add_measurements<P: Serialize + Clone + Send + Sync + 'static>(
     (measured.nodes)(params, &mut nodes)?;
     let (nodes, tables) = nodes.finish();
     let undescribable = |error: manifest::NotDescribable| NodeError::new(error.to_string());
-    let reader =
-        Picturing { id: id.to_owned(), params: params.clone(), kind: measured.picture_kind, draw: measured.picture };
+    let (name, params) = (id.to_owned(), params.clone());
+    let reader = Picturing { id: name, params, kind: measured.picture_kind, draw: measured.picture, of: "" };
     let mut picture =
         Node::new(Address::new(id, MEASURED_PICTURE_NODE), reader).map_err(undescribable)?.origin(CONFIG, "");
     let mut export = |path: String, from: &Address, artifact: &str| {
@@ -310,6 +317,8 @@ struct Picturing<P> {
     params: P,
     kind: &'static Kind,
     draw: fn(&P, &Tables) -> Result<Picture, NodeError>,
+    /// The `kind` of configs; empty for a picture of measurements.
+    of: &'static str,
 }
 
 /// Where the leaves of a picture's parameters stand in its manifest.
@@ -344,7 +353,13 @@ impl<P: Serialize + Send + Sync> Compute for Picturing<P> {
         }
         let (svg, pdf) =
             crate::plot::render::render_both(&picture).map_err(|error| NodeError::new(format!("drawing: {error}")))?;
-        let artifacts = vec![Artifact::opaque(PICTURE_FILE, svg), Artifact::opaque(PDF_FILE, pdf)];
+        let values = toml::to_string(&self.params).map_err(|error| NodeError::new(error.to_string()))?;
+        let config = format!("kind = {:?}\n{values}", self.of);
+        let artifacts = vec![
+            Artifact::opaque(PICTURE_FILE, svg),
+            Artifact::opaque(PDF_FILE, pdf),
+            Artifact::opaque(CONFIG_FILE, config.into_bytes()),
+        ];
         Ok(Product { artifacts, work: Work::default() })
     }
 }

@@ -20,7 +20,7 @@ use crate::effects::hard_cases::spin::{self, HardCasesSpin};
 use crate::effects::scene::Inertia;
 use crate::plot::axis::Axis;
 use crate::plot::mark::Curve;
-use crate::plot::picture::{Layout, Panel, Picture, Width};
+use crate::plot::picture::{Layout, Letter, Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::{Table, Tables};
 use schemars::JsonSchema;
@@ -85,6 +85,21 @@ fn validate_all<F>(families: &[Swept<F>], metric: &str) -> Result<(), Invalid> {
     families.iter().enumerate().try_for_each(|(i, swept)| swept.validate(&format!("{metric}.families[{i}]")))
 }
 
+/// Refuses a family, with its parameters, that stands twice.
+fn once<F: Serialize + Copy>(
+    families: &[Swept<F>],
+    metric: &str,
+    name: impl Fn(F) -> &'static str,
+) -> Result<(), Invalid> {
+    let words = |swept: &Swept<F>| format!("{} {:?}", name(swept.family), axes(&swept.family));
+    for (i, swept) in families.iter().enumerate() {
+        let key = format!("{metric}.families[{i}].family");
+        let is_new = families[..i].iter().all(|earlier| words(earlier) != words(swept));
+        Invalid::unless(is_new, key, format!("{} again", name(swept.family)), "each family once, with its parameters")?;
+    }
+    Ok(())
+}
+
 impl Validate for Params {
     fn validate(&self) -> Result<(), Invalid> {
         Invalid::unless((1..=50).contains(&self.per_decade), "per_decade", self.per_decade, "1 to 50")?;
@@ -92,7 +107,10 @@ impl Validate for Params {
         self.rotation_group.body.validate("rotation-group.body")?;
         validate_all(&self.serret_andoyer.families, "serret-andoyer")?;
         validate_all(&self.spin.families, "spin")?;
-        validate_all(&self.rotation_group.families, "rotation-group")
+        validate_all(&self.rotation_group.families, "rotation-group")?;
+        once(&self.serret_andoyer.families, "serret-andoyer", serret_andoyer::Family::name)?;
+        once(&self.spin.families, "spin", |family| family.name())?;
+        once(&self.rotation_group.families, "rotation-group", rotation_group::Family::name)
     }
 }
 
@@ -340,14 +358,21 @@ fn panel(metric: &str, family: &str, tables: &[&Table], is_first: bool, is_last:
             (least, most) = (least.min(*distance), most.max(*distance));
         }
     }
-    let mut x = Axis::new(if is_last { "distance" } else { "" }).log().reversed();
+    let decades = [0, 4, 8, 12, 16, 24].map(|n| {
+        let words = if n == 0 { "1".to_owned() } else { format!("10^{{−{n}}}") };
+        (libm::pow(10.0, -f64::from(n)), words)
+    });
+    let shown = decades.into_iter().filter(|(at, _)| *at >= 0.5 * least && *at <= 2.0 * most);
+    let mut x = Axis::new(if is_last { "distance" } else { "" }).log().reversed().ticks_at(shown);
     if least < most {
         x = x.fixed(least, most);
     }
     let y = Axis::new(if is_first { "digits" } else { "" })
         .fixed(-0.5, DIGITS + 0.5)
         .ticks_at([0.0, 4.0, 8.0, 12.0, 16.0].map(|at| (at, format!("{at}"))));
-    let mut panel = Panel::new(x, y).title(format!("{short}: {}", family.replace('-', " ")));
+    // Short enough for a fifth of the page.
+    let family = family.replace('-', " ").replace(" with separatrix", ", separatrix").replace(" momenta", ", momenta");
+    let mut panel = Panel { letter: Letter::None, ..Panel::new(x, y).title(format!("{short}: {family}")) };
     for table in tables {
         let distance = table.f64s("distance").map_err(unread)?;
         let line = |errors: &[f64]| {

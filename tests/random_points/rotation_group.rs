@@ -12,7 +12,7 @@ use polhode::geometry::rotation_group::conjugate::first_conjugate_times;
 use polhode::geometry::rotation_group::euler_angles::EulerPoint;
 use polhode::geometry::rotation_group::first_two::first_two_conjugate_times_to_reference;
 use polhode::geometry::rotation_group::metric::Metric;
-use polhode::geometry::rotation_group::polhode::Start;
+use polhode::geometry::rotation_group::polhode_curve::Start;
 use polhode::numerics::double_double::DoubleDouble;
 use polhode::numerics::real::Real;
 use std::collections::BTreeMap;

@@ -20,7 +20,7 @@ use crate::geometry::rotation_group::first_two::{
     steady_period,
 };
 use crate::geometry::rotation_group::metric::Metric;
-use crate::geometry::rotation_group::polhode::{Polhode, Start};
+use crate::geometry::rotation_group::polhode_curve::{Polhode, Start};
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
 use schemars::JsonSchema;
@@ -159,6 +159,7 @@ pub const KIND: Kind = Kind {
         "effects/point",
         "effects/point.rs",
         "effects/product.rs",
+        "effects/arithmetic.rs",
         "effects/rotation_group/start.rs",
         "geometry",
         "numerics",

@@ -43,7 +43,15 @@ use std::f64::consts::PI;
 pub const KIND: Kind = Kind {
     name: "hard-cases-spin",
     summary: "a family of hard cases of the spin problem: naive formulation, ours, truth, condition, verdict",
-    code: &["effects/hard_cases", "effects/product.rs", "geometry/spin", "numerics", "table"],
+    code: &[
+        "effects/hard_cases/family.rs",
+        "effects/hard_cases/spin.rs",
+        "effects/hard_cases/spin_naive.rs",
+        "effects/product.rs",
+        "geometry/spin",
+        "numerics",
+        "table",
+    ],
     measurement: false,
 };
 

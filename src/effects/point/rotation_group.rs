@@ -9,7 +9,7 @@ use crate::effects::counted::integrated;
 use crate::geometry::rotation_group::euler_angles::EulerPoint;
 use crate::geometry::rotation_group::first_two::{FirstTwo, FirstTwoError, first_two_conjugate_times_within};
 use crate::geometry::rotation_group::metric::Metric;
-use crate::geometry::rotation_group::polhode::Start;
+use crate::geometry::rotation_group::polhode_curve::Start;
 
 const METRIC: &str = "the metric is A=… B=… C=…, inverse moments of inertia above 0";
 const ACCEPTED: &str = "a start is H1=… H2=… H3=…, or Phi2=… Phi3=… p1=… p2=… p3=…";

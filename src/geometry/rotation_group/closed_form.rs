@@ -26,7 +26,7 @@
 //! Source: derived here; for T the reduction of P. F. Byrd, M. D. Friedman, 336.02. Checked against the integration of
 //! [`super::conjugate`]. Units: |M| = 1, largest inverse moment in [1, 2). Not known here: attitude, other units.
 
-use crate::geometry::rotation_group::polhode::{Polhode, Round};
+use crate::geometry::rotation_group::polhode_curve::{Polhode, Round};
 use crate::numerics::elliptic::carlson::r_d;
 use crate::numerics::elliptic::complete::{complete_b, complete_j, complete_k};
 use crate::numerics::elliptic::incomplete::{delta_squared, incomplete_f_sc, incomplete_j_sc};

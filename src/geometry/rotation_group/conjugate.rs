@@ -284,7 +284,7 @@ pub(super) fn end_of_search<S: Real>(metric: &Metric<S>, body_momentum: &[S; 3])
 ///
 /// `t₁ ≤ t₂ ≤ …`; nothing depends on the attitude. Domain: A, B, C positive in any order, M ≠ 0 (an axis included), in units in which
 /// times are between 1e-7 and 1e7 or so: coefficients of order 39 (double-double; 21 for `f64`) must not underflow
-/// ([`super::polhode::Start`] scales).
+/// ([`super::polhode_curve::Start`] scales).
 /// Guarantee: none is skipped, double ones (near-spherical and symmetric bodies) included; relative error a few ε times
 /// the condition of the problem at `tolerance = ε`. Source: module page.
 ///

@@ -11,7 +11,7 @@
 use crate::geometry::rotation_group::closed_form::{ClosedForm, Root};
 use crate::geometry::rotation_group::conjugate::{ConjugateError, first_conjugate_times_by};
 use crate::geometry::rotation_group::metric::Metric;
-use crate::geometry::rotation_group::polhode::{Polhode, Start};
+use crate::geometry::rotation_group::polhode_curve::{Polhode, Start};
 use crate::numerics::counts::Work;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;

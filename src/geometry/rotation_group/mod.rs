@@ -15,6 +15,6 @@ pub mod euler_angles;
 pub mod first_two;
 mod lagrangian_plane;
 pub mod metric;
-pub mod polhode;
+pub mod polhode_curve;
 pub mod serret_andoyer_transformation;
 mod vectors;
