@@ -275,7 +275,8 @@ fn recorded() -> Vec<(String, Vec<(String, u64)>)> {
     for entry in std::fs::read_dir(folder).expect("golden/") {
         let path = entry.expect("an entry").path();
         // Experiments about the effects and methods themselves, judged by their own claims.
-        let about_methods = ["cost_of_effects.snap", "accuracy.snap"].iter().any(|name| path.ends_with(name));
+        let about_methods =
+            ["cost_of_effects.snap", "accuracy.snap", "hard_cases.snap"].iter().any(|name| path.ends_with(name));
         if path.extension().is_none_or(|ending| ending != "snap") || about_methods {
             continue;
         }

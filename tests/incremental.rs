@@ -13,7 +13,7 @@ use polhode::cli::collected;
 use polhode::cli::page;
 use polhode::cli::session::Session;
 use polhode::contract::code::{self, CodeListing};
-use polhode::contract::node::Kind;
+use polhode::contract::node::{Address, Kind};
 use polhode::contract::plan::Plan;
 use polhode::pipeline::events::Silent;
 use polhode::pipeline::forecast::{Prospect, forecast};
@@ -289,6 +289,7 @@ fn a_change_to_the_plot_room_runs_only_pictures() {
         // The nodes that compute: by effect, on numerics; neither the command nor the experiments can make them stale.
         if !["picture", "findings"].contains(&old.node.address.node.as_str())
             && old.node.address.experiment != collected::ID
+            && old.node.address != Address::new(page::ID, "page")
         {
             assert!(has("effects") && has("table"), "{}", kind.name);
             let computes = has("numerics") || has("geometry");

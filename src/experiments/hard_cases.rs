@@ -120,7 +120,6 @@ pub const EXPERIMENT: Experiment = Experiment::of::<HardCases>();
 const PICTURE: Kind = picture_kind(
     "hard_cases-picture",
     &[
-        "effects/hard_cases",
         "experiments/hard_cases.rs",
         "experiments/definition.rs",
         "experiments/findings.rs",
@@ -135,7 +134,6 @@ const FINDINGS: Kind = findings_kind(
     &[
         "contract/claim.rs",
         "contract/value.rs",
-        "effects/hard_cases",
         "experiments/hard_cases.rs",
         "experiments/definition.rs",
         "experiments/findings.rs",

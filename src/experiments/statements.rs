@@ -58,7 +58,6 @@ const CODE: &[&str] = &[
     "experiments/findings.rs",
     "experiments/scenes",
     "experiments/spin_branches.rs",
-    "effects/statements/group.rs",
     "plot",
     "table",
 ];
@@ -73,8 +72,7 @@ const FINDINGS: Kind = findings_kind(
         "experiments/findings.rs",
         "experiments/scenes",
         "experiments/spin_branches.rs",
-        "effects/statements/group.rs",
-        "table",
+            "table",
     ],
 );
 
