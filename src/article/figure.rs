@@ -79,21 +79,22 @@ pub fn add(page: &mut String, part: &Part) -> Result<(), PageError> {
         escape(&picture.caption),
     );
     let _ = write!(page, "<p class=\"links\"><a href=\"../{id}.svg\">SVG</a> · <a href=\"pdf/{id}.pdf\">PDF</a>");
+    let _ = write!(page, " · <a href=\"../data/{id}/findings.json\">findings</a>");
+    let module = escape(&part.module);
+    let _ = write!(page, " · <a href=\"config/{id}.toml\">config</a> · source: <code>{module}</code>");
+    let _ = write!(page, "</p>\n<details class=\"links\"><summary>Tables ({})</summary>\n<ul>\n", part.tables.len());
     for (name, path, table) in &part.tables {
-        let _ = write!(
+        let _ = writeln!(
             page,
-            " · <a href=\"../{0}\" title=\"{1}\">{2}.parquet</a> <a href=\"csv/{id}/{3}\">CSV</a>",
+            "<li><a href=\"../{0}\" title=\"{1}\">{2}.parquet</a> <a href=\"csv/{id}/{3}\">CSV</a></li>",
             escape(path),
             escape(table.meaning()),
             escape(name),
             escape(&csv_name(name)),
         );
     }
-    let _ = write!(page, " · <a href=\"../data/{id}/findings.json\">findings</a>");
-    let module = escape(&part.module);
-    let _ = write!(page, " · <a href=\"config/{id}.toml\">config</a> · source: <code>{module}</code>");
     page.push_str(
-        "</p>\n<details><summary>Config values and hashes of the tables</summary>\n<table class=\"plain\">\n",
+        "</ul></details>\n<details><summary>Config values and hashes of the tables</summary>\n<table class=\"plain\">\n",
     );
     for (key, value) in &picture.entries {
         let _ =

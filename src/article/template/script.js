@@ -105,7 +105,7 @@
   const [LOCUS, EQUATOR, GREY] = ['#d55e00', '#646464', '#808080'];
 
   const plane = document.getElementById('slider-plane');
-  plane.setAttribute('viewBox', '-5.6 -3.9 11.2 7.8');
+  plane.setAttribute('viewBox', '-6.2 -4 12.4 8');
   draw('line', { x1: -5.2, x2: 5.2, y1: 0, y2: 0, stroke: EQUATOR, 'stroke-width': 0.02 }, plane);
   for (const [x, text] of [[-Math.PI, '−π'], [0, '0'], [Math.PI, 'π']]) {
     draw('line', { x1: x, x2: x, y1: -Math.PI / 2, y2: Math.PI / 2, stroke: GREY, 'stroke-width': 0.015, 'stroke-dasharray': '0.08 0.08' }, plane);
@@ -115,7 +115,7 @@
     draw('text', { x: -5.25, y: y + 0.1, 'font-size': 0.32, 'text-anchor': 'end' }, plane).textContent = text;
   }
   draw('text', { x: 4.6, y: 2.5, 'font-size': 0.36, 'font-style': 'italic' }, plane).textContent = 'θ';
-  draw('text', { x: -5.4, y: -1.9, 'font-size': 0.36, 'font-style': 'italic' }, plane).textContent = 'φ';
+  draw('text', { x: -5.5, y: -2.1, 'font-size': 0.36, 'font-style': 'italic' }, plane).textContent = 'φ';
   const flat = draw('path', { fill: 'none', stroke: LOCUS, 'stroke-width': 0.045, 'stroke-linejoin': 'round' }, plane);
   draw('circle', { cx: 0, cy: 0, r: 0.06 }, plane);
 
