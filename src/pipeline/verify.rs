@@ -159,6 +159,10 @@ pub fn verify(
         let outcome = again(graph, store, node, &records);
         let duration = begun.elapsed();
         events.finished(&address, duration, &records.get(&node).map(|record| record.work).unwrap_or_default());
+        // An input that can't be read is damage, and told as such: nothing is known of the node that reads it.
+        if matches!(outcome, Outcome::Failed(Failure::Store(_))) {
+            continue;
+        }
         verified.recomputed.push(Recomputed { address, key, outcome, seconds: duration.as_secs_f64() });
     }
     Ok(verified)

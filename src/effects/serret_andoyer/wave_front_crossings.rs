@@ -43,6 +43,7 @@ pub const KIND: Kind = Kind {
     summary: "self-crossings of a wave front, found from the front, and their distance from the cut locus",
     code: &[
         "effects/serret_andoyer/wave_front_crossings.rs",
+        "effects/arithmetic.rs",
         "effects/serret_andoyer/wave_front.rs",
         "effects/serret_andoyer/body.rs",
         "effects/product.rs",
