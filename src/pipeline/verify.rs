@@ -156,7 +156,7 @@ pub fn verify(
         let address = graph.address(node).clone();
         events.started(&address, None);
         let begun = Instant::now();
-        let outcome = again(graph, store, node, &records);
+        let Some(outcome) = again(graph, store, node, &records) else { continue };
         let duration = begun.elapsed();
         events.finished(&address, duration, &records.get(&node).map(|record| record.work).unwrap_or_default());
         // An input that can't be read is damage, and told as such: nothing is known of the node that reads it.
@@ -175,18 +175,16 @@ fn rank(key: Digest, seed: u64) -> Digest {
     framed.finish()
 }
 
-/// Computes one node again, on a thread with the stack that a run gives it.
-fn again(graph: &Graph, store: &Store, node: usize, records: &HashMap<usize, Record>) -> Outcome {
+/// Computes one node again, on a thread with the stack that a run gives it. None where an input's node is not stored whole.
+fn again(graph: &Graph, store: &Store, node: usize, records: &HashMap<usize, Record>) -> Option<Outcome> {
     let placed = &graph.nodes[node];
     let (mut logical, mut objects) = (Vec::new(), Vec::new());
     for (input, from) in placed.node.inputs.iter().zip(&placed.inputs) {
-        // A node that is stored whole has inputs that are: its key was made from them.
-        if let Some(output) = records.get(from).and_then(|record| record.output(&input.artifact)) {
-            logical.push(output.logical);
-            objects.push(output.object);
-        }
+        let output = records.get(from).and_then(|record| record.output(&input.artifact))?;
+        logical.push(output.logical);
+        objects.push(output.object);
     }
-    let Some(stored) = records.get(&node) else { return Outcome::Same };
+    let stored = records.get(&node)?;
     let outcome = std::thread::scope(|scope| {
         let act = || work::recompute(graph, store, node, stored, &logical, &objects);
         let thread = Builder::new().stack_size(STACK).spawn_scoped(scope, act);
@@ -196,11 +194,11 @@ fn again(graph: &Graph, store: &Store, node: usize, records: &HashMap<usize, Rec
             Err(error) => Err(Failure::Node(format!("can't start a thread: {error}"))),
         }
     });
-    match outcome {
+    Some(match outcome {
         Ok(differing) if differing.is_empty() => Outcome::Same,
         Ok(differing) => Outcome::Differs(differing),
         Err(failure) => Outcome::Failed(failure),
-    }
+    })
 }
 
 /// Reads every record, object and file of heads.
