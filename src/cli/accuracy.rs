@@ -4,7 +4,7 @@
 //! first. Then each level's named values, tables and pictures are compared with those of the reference ([`crate::check::difference`], [`crate::check::movement`]).
 //! Closed forms have no tolerance: at `draft` they are as good as at `article`, and what is off is what was integrated.
 //!
-//! Times are the shortest of up to [`REPEATS`] runs: of compute nodes alone, and with drawing and reading values. They are measurements: on stdout and in
+//! Times are the shortest of up to `REPEATS` runs: of compute nodes alone, and with drawing and reading values. They are measurements: on stdout and in
 //! `OUT/measured/`, in nothing that is committed or compared.
 
 use crate::check::difference::{Differences, Largest};

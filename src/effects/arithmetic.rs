@@ -1,6 +1,6 @@
 //! The arithmetic that a node computes in, and what an accuracy level asks of an integration.
 //!
-//! A kind writes its formulas over any [`crate::numerics::real::Real`] and runs them with [`in_arithmetic`] in `f64` or in double-double, rounded at the end.
+//! A kind writes its formulas over any [`crate::numerics::real::Real`] and runs them with `in_arithmetic` in `f64` or in double-double, rounded at the end.
 //! What is a choice and not a result (where samples stand, how a curve is cut into pieces) is made in `f64` in either: so that the rows of a table
 //! are the same at all levels, and their numbers can be compared one by one.
 

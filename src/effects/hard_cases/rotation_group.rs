@@ -4,7 +4,7 @@
 //! momentum in double-double. The condition number is the largest difference quotient over inputs moved by one ε, in double-double as
 //! well where the closed form resolves the start. What a straightforward program loses is in `rotation_group_naive.rs`.
 //!
-//! Where a family says nothing else the body is the article's, and the momentum [`MOMENTUM`].
+//! Where a family says nothing else the body is the article's, and the momentum `MOMENTUM`.
 
 use super::family::{Case, Told, table};
 use super::rotation_group_naive::{cosines_in_the_chart, first_sign_change, printed_momentum};

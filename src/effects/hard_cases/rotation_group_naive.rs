@@ -1,7 +1,7 @@
 //! What a straightforward program computes on SO(3), in plain `f64`: the naive formulations that the hard cases are compared with.
 //!
 //! - The first conjugate time as the first change of sign of `det[ξ1 ξ2 ξ3]` along an integration of momentum and three Jacobi fields by
-//!   DOP853 at 1e-13, looked at in [`LOOKS`] places a step: pairs of roots between two looks are not seen.
+//!   DOP853 at 1e-13, looked at in `LOOKS` places a step: pairs of roots between two looks are not seen.
 //! - The body momentum of Euler angles by the printed `q = (p1 − p3 cos Φ2)/sin Φ2`.
 //! - The momentum after a long time by integrating Hamilton's equations of the printed `H_n(Φ, p)` (section 2.3) in the chart.
 //!

@@ -4,7 +4,7 @@
 //! condition number is the largest difference quotient over inputs moved by one ε, in double-double as well. What the program would lose
 //! that knows the printed formulas is in `serret_andoyer_naive.rs`.
 //!
-//! Where a family says nothing else, φ0 is at [`START`] of the way from the equator to the turning point, ascending, h = 1/2.
+//! Where a family says nothing else, φ0 is at `START` of the way from the equator to the turning point, ascending, h = 1/2.
 
 use super::family::{Case, Told, table};
 use super::serret_andoyer_naive::{Chart, Printed, by_integration};

@@ -20,7 +20,7 @@
 //! (The third kind cancels in T, which is the derivative of the motion by its modulus.) A symmetric body (p = q) has ρ = 1, ψ = a2 t,
 //! Z = −σ (a/k) r t; the sphere Z = 0.
 //!
-//! **What rounding does.** Every parameter is known to half an ε ([`super::polhode`]). Only the bracket of Z cancels: near the separating
+//! **What rounding does.** Every parameter is known to half an ε ([`super::polhode_curve`]). Only the bracket of Z cancels: near the separating
 //! polhode, by 1/q. The size of its terms is what the estimate is made of.
 //!
 //! Source: derived here; for T the reduction of P. F. Byrd, M. D. Friedman, 336.02. Checked against the integration of

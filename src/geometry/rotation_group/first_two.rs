@@ -2,7 +2,7 @@
 //! neither is.
 //!
 //! The closed form ([`super::closed_form`]) estimates its own rounding. Beyond [`ENOUGH`] it is evaluated in double-double; where the
-//! separating polhode is nearer than that resolves (the estimate is beyond [`BELIEVED`]), momentum and Jacobi fields are integrated
+//! separating polhode is nearer than that resolves (the estimate is beyond `BELIEVED`), momentum and Jacobi fields are integrated
 //! ([`super::conjugate`]), which knows no separating polhode, again in double-double where `f64` says that it is not enough.
 //!
 //! The condition number of t1 is at least 1/3 (t is homogeneous of degree −1 in M and in A, B, C), so an answer within `ENOUGH`
