@@ -17,7 +17,8 @@ use polhode::pipeline::gc::{GcError, GcOptions, gc};
 use polhode::pipeline::graph::Graph;
 use polhode::pipeline::record::Malformed;
 use polhode::pipeline::report::{ExportStatus, Failure, Outcome, Repair, Report, Status, Subject};
-use polhode::pipeline::run::run;
+use polhode::pipeline::run::{Options, run};
+use polhode::pipeline::settled::Question;
 use polhode::pipeline::store::{Fault, Store, StoreError};
 use polhode::pipeline::verify::{Sample, verify};
 use serde::Serialize;
@@ -112,6 +113,7 @@ impl Reached {
                 Subject::Object => "object",
                 Subject::Listing => "listing",
                 Subject::Heads => "heads",
+                Subject::Settled => "settled",
                 Subject::Format => "format",
                 Subject::Output => "output",
             };
@@ -164,6 +166,7 @@ const NAMES: [&str; 38] = [
     "object",
     "listing",
     "heads",
+    "settled",
     "format",
     "output",
     "from store",
@@ -298,6 +301,11 @@ fn damage(reached: &mut Reached) {
     flip(&store.marker_path());
     reached.report(&bench.run(0.8));
     assert_eq!(bench.run(0.8).damage, []);
+    let question = Some(Question { digest: Digest::of(b"0.8"), note: String::new() });
+    let (graph, options) = (bench.graph(0.8), Options { question, ..bench.options() });
+    run(&graph, &graph.all(), &store, &options, &mut Silent);
+    files(&store.folder().join("settled")).iter().for_each(|path| flip(path));
+    reached.report(&run(&graph, &graph.all(), &store, &options, &mut Silent));
 }
 
 /// The store as a whole.

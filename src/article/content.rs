@@ -18,6 +18,8 @@ pub struct Part {
     pub findings: Findings,
     /// Its module in this program's source.
     pub module: String,
+    /// Whether the source lies beside the output folder, so that the page can link to it.
+    pub has_source: bool,
     /// Its tables, by name, with the path of the Parquet file from the output folder.
     pub tables: Vec<(String, String, Table)>,
 }
@@ -61,6 +63,12 @@ impl Content {
 /// Why there is no page.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum PageError {
+    /// A place of the template that nothing fills: a defect.
+    #[error("nothing fills the place {place:?} of the template")]
+    Template {
+        /// What it is called.
+        place: String,
+    },
     /// A picture that is no SVG as this program writes it.
     #[error("{part}: the picture can't be read: {why}")]
     Picture {

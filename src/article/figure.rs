@@ -84,7 +84,12 @@ pub fn add(page: &mut String, part: &Part) -> Result<(), PageError> {
     }
     let _ = write!(page, " · <a href=\"../data/{id}/findings.json\">findings</a>");
     let module = escape(&part.module);
-    let _ = write!(page, " · <a href=\"config/{id}.toml\">config</a> · source: <code>{module}</code>");
+    let source = if part.has_source {
+        format!("<a href=\"../../{module}\">source</a>")
+    } else {
+        format!("source: <code>{module}</code>")
+    };
+    let _ = write!(page, " · <a href=\"config/{id}.toml\">config</a> · {source}");
     let _ = write!(page, "</p>\n<details class=\"links\"><summary>Tables ({})</summary>\n<ul>\n", part.tables.len());
     for (name, path, table) in &part.tables {
         let _ = writeln!(

@@ -31,10 +31,11 @@ pub fn page(content: &Content) -> Result<String, PageError> {
         content.part(id).map_or(Ok(()), |part| figure::add(&mut text, part))?;
         Ok(text)
     };
-    let [mut claims_table, mut printed, mut named, mut hard, mut effects] = [const { String::new() }; 5];
+    let [mut claims_table, mut printed, mut named, mut ladder, mut hard, mut effects] = [const { String::new() }; 6];
     claims::add(&mut claims_table, &judged);
-    tables::printed_values(&mut printed, &judged);
-    tables::named_values(&mut named, content, |_| true);
+    tables::printed_values(&mut printed, content, &judged);
+    tables::named_values(&mut named, content);
+    tables::accuracy(&mut ladder, content)?;
     tables::hard_cases(&mut hard, content)?;
     tables::effects(&mut effects, content);
     let loci = content.loci.as_ref().map_or(Ok("null".to_owned()), loci::json)?;
@@ -54,15 +55,17 @@ pub fn page(content: &Content) -> Result<String, PageError> {
         ("effects-figure", &chapter("cost_of_effects")?),
         ("graph", &content.graph),
         ("loci", &loci),
+        ("ladder", &ladder),
         ("script", SCRIPT),
-        ("", ""),
     ];
     let mut page = String::with_capacity(1 << 21);
     let mut rest = TEMPLATE;
     while let Some((before, after)) = rest.split_once("<!--") {
         let (name, after) = after.split_once("-->").unwrap_or((after, ""));
+        let fill = fills.iter().find(|(known, _)| *known == name);
+        let (_, fill) = fill.ok_or_else(|| PageError::Template { place: name.to_owned() })?;
         page.push_str(before);
-        page.push_str(fills.iter().find(|(known, _)| *known == name).map_or("", |(_, fill)| fill));
+        page.push_str(fill);
         rest = after;
     }
     page.push_str(rest);
@@ -97,13 +100,14 @@ mod tests {
                 .to_owned(),
             findings: Findings { values: vec![], claims: vec![claim("good", 1.2346), claim("bad", 1.2)] },
             module: "src/experiments/fig1.rs".to_owned(),
+            has_source: true,
             tables: vec![],
         };
         let metrics = vec![MetricEffects { metric: "spin".to_owned(), effects: vec!["geodesics".to_owned()] }];
         Content { parts: vec![part], metrics, graph: String::new(), loci: None }
     }
 
-    /// The failing claim stands first, both are counted, the config is linked, every place of the template is filled.
+    /// The failing claim stands first, both are counted, config and source are linked, every place of the template is filled.
     #[test]
     fn a_page_of_little() {
         let page = page(&content()).unwrap();
@@ -111,6 +115,7 @@ mod tests {
         let table = &page[page.find("<table id=\"claims-table\"").unwrap()..];
         assert!(table.find("the value of bad").unwrap() < table.find("the value of good").unwrap());
         assert!(page.contains("<a href=\"config/fig1.toml\">config</a>") && page.contains("the caption"));
+        assert!(page.contains("<a href=\"../../src/experiments/fig1.rs\">source</a>"));
         assert!(!page.contains("<!--"));
         assert_eq!(super::page(&content()).unwrap(), page);
     }

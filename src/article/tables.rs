@@ -4,7 +4,6 @@ use super::claims::Judged;
 use super::content::{Content, PageError};
 use super::markup::{escape, number, rough, row};
 use crate::contract::claim::{Evidence, Test};
-use crate::table::Table;
 use std::fmt::Write as _;
 
 fn head(page: &mut String, columns: &[&str]) {
@@ -27,10 +26,10 @@ fn last_digit(printed: f64) -> f64 {
 }
 
 /// Values that the article prints, beside ours.
-pub fn printed_values(page: &mut String, claims: &[Judged<'_>]) {
+pub fn printed_values(page: &mut String, content: &Content, claims: &[Judged<'_>]) {
     head(page, &["value", "article", "ours", "difference in its last digit", "where"]);
     let mut in_order: Vec<&Judged<'_>> = claims.iter().collect();
-    in_order.sort_by_key(|judged| judged.part.id.clone());
+    in_order.sort_by_key(|judged| content.parts.iter().position(|part| part.id == judged.part.id));
     for judged in in_order {
         let test = match &judged.claim.evidence {
             Evidence::Direct(test) | Evidence::Slip { printed: test, .. } => test,
@@ -54,10 +53,10 @@ pub fn printed_values(page: &mut String, claims: &[Judged<'_>]) {
     tail(page);
 }
 
-/// The named values of a part, or of all.
-pub fn named_values(page: &mut String, content: &Content, of: impl Fn(&str) -> bool) {
+/// The named values of all parts.
+pub fn named_values(page: &mut String, content: &Content) {
     head(page, &["name", "value", "error at most", "unit", "meaning"]);
-    for part in content.parts.iter().filter(|part| of(&part.id)) {
+    for part in &content.parts {
         for value in &part.findings.values {
             let cells = [
                 format!("<code>{}/{}</code>", part.id, escape(&value.name)),
@@ -70,6 +69,53 @@ pub fn named_values(page: &mut String, content: &Content, of: impl Fn(&str) -> b
         }
     }
     tail(page);
+}
+
+/// Requests that the table of accuracy shows: every fourth decade.
+fn is_shown(asked: f64) -> bool {
+    let decades = -libm::log10(asked);
+    let fourths = libm::rint(decades / 4.0);
+    (decades - 4.0 * fourths).abs() < 1e-6
+}
+
+/// What accuracy costs: by metric, method and request the error achieved and the work of one conjugate time.
+///
+/// # Errors
+/// A table without a column that is shown.
+pub fn accuracy(page: &mut String, content: &Content) -> Result<(), PageError> {
+    let Some(part) = content.part("accuracy") else { return Ok(()) };
+    let missing = |error: crate::table::TableError| PageError::Table { part: part.id.clone(), why: error.to_string() };
+    head(
+        page,
+        &["metric", "method", "error asked for", "achieved, at worst", "median", "multiplications a point", "times the closed form's"],
+    );
+    for (name, _, table) in &part.tables {
+        if !table.has("multiplications") {
+            continue;
+        }
+        let numbers = |name: &str| table.f64s(name).map_err(missing);
+        let counts = |name: &str| table.ints(name).map_err(missing);
+        let methods = table.texts("method").map_err(missing)?;
+        let (asked, worst, median) = (numbers("asked")?, numbers("largest_error")?, numbers("median_error")?);
+        let (work, starts) = (counts("multiplications")?, counts("starts")?);
+        let is_closed = |row: usize| methods[row] == "closed-form";
+        let cost = |row: usize| work[row] as f64 / starts[row] as f64;
+        let least = (0..table.rows()).find(|row| is_closed(*row)).map(cost);
+        for at in (0..table.rows()).filter(|row| is_closed(*row) || is_shown(asked[*row])) {
+            let cells = [
+                escape(name),
+                escape(&methods[at]),
+                if is_closed(at) { "–".to_owned() } else { rough(asked[at]) },
+                rough(worst[at]),
+                rough(median[at]),
+                number(libm::rint(cost(at))),
+                least.map_or_else(|| "–".to_owned(), |least| rough(cost(at) / least)),
+            ];
+            row(page, "td", &cells);
+        }
+    }
+    tail(page);
+    Ok(())
 }
 
 /// The families of hard cases: how far each goes, and what the naive formulation and ours lose at worst.
@@ -136,27 +182,6 @@ pub fn effects(page: &mut String, content: &Content) {
     tail(page);
 }
 
-/// All rows of a table as they are, for the small ones.
-pub fn whole(page: &mut String, table: &Table) {
-    let columns = table.columns();
-    let heads: Vec<String> = columns.iter().map(|column| escape(&column.name)).collect();
-    head(page, &heads.iter().map(String::as_str).collect::<Vec<_>>());
-    for at in 0..table.rows() {
-        let cells: Vec<String> = columns
-            .iter()
-            .map(|column| {
-                let number = match &column.data {
-                    crate::table::Data::F64(values) => values.get(at).filter(|x| x.is_finite()).map(|x| number(*x)),
-                    _ => None,
-                };
-                number.unwrap_or_else(|| escape(&column.data.cell(at)))
-            })
-            .collect();
-        row(page, "td", &cells);
-    }
-    tail(page);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -165,6 +190,7 @@ mod tests {
     fn the_last_printed_digit() {
         assert_eq!(last_digit(1.0606), 1e-4);
         assert_eq!(last_digit(3.0), 1.0);
+        assert!(is_shown(1e-4) && is_shown(1e-28) && !is_shown(1e-3) && !is_shown(1e-14));
         assert_eq!(counted(&["stable".to_owned(), "lossy".to_owned(), "stable".to_owned()]), "stable 2, lossy 1");
     }
 }

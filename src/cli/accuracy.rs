@@ -4,6 +4,9 @@
 //! first. Then each level's named values, tables and pictures are compared with those of the reference ([`crate::check::difference`], [`crate::check::movement`]).
 //! Closed forms have no tolerance: at `draft` they are as good as at `article`, and what is off is what was integrated.
 //!
+//! The whole article means its experiments: those it does not have are left out, and so are those that no level changes (statements are checked and hard
+//! cases are computed at the accuracy that each of them says). Both are named.
+//!
 //! Times are the shortest of up to `REPEATS` runs: of compute nodes alone, and with drawing and reading values. They are measurements: on stdout and in
 //! `OUT/measured/`, in nothing that is committed or compared.
 
@@ -17,10 +20,12 @@ use crate::cli::exit::Exit;
 use crate::cli::session::{Refused, Session};
 use crate::cli::workspace::Workspace;
 use crate::contract::accuracy::Accuracy;
+use crate::contract::node::Address;
+use crate::contract::plan::Plan;
 use crate::contract::value::Findings;
 use crate::contract::work::Work;
 use crate::effects::cost_of_effects::machine;
-use crate::experiments::definition::{FINDINGS_FILE, FINDINGS_NODE, MEASURED_FOLDER, PICTURE_NODE};
+use crate::experiments::definition::{FINDINGS_FILE, FINDINGS_NODE, MEASURED_FOLDER, NOT_IN_ARTICLE, PICTURE_NODE};
 use crate::pipeline::events::Silent;
 use crate::pipeline::report::{Report, Status};
 use crate::pipeline::run::run as run_pipeline;
@@ -93,8 +98,8 @@ pub fn run(arguments: &AccuracyArguments) -> Result<Exit, ConsoleError> {
 
 fn answered(arguments: &AccuracyArguments) -> Result<(String, Exit), Refused> {
     let levels = levels(arguments)?;
-    let target = arguments.target.clone();
-    let name = target.as_deref().map_or(WHOLE.to_owned(), |target| {
+    let scope = scope(arguments)?;
+    let name = arguments.target.as_deref().map_or(WHOLE.to_owned(), |target| {
         Path::new(target).file_stem().map_or(target.to_owned(), |stem| stem.to_string_lossy().into_owned())
     });
     let mut reference = None;
@@ -104,7 +109,7 @@ fn answered(arguments: &AccuracyArguments) -> Result<(String, Exit), Refused> {
         if !arguments.no_progress {
             console::message(&format!("{name} at {level} …"));
         }
-        let (mut found, outputs) = measure(arguments, level)?;
+        let (mut found, outputs) = measure(arguments, &scope.targets, level)?;
         if reference.is_none() {
             reference = Some(outputs);
         } else if let Some(reference) = &reference {
@@ -120,9 +125,10 @@ fn answered(arguments: &AccuracyArguments) -> Result<(String, Exit), Refused> {
     let machine = machine::describe();
     let file = written(arguments, &name, &measured, &machine)?;
     let text = if arguments.json {
-        format!("{:#}\n", as_json(&name, &measured, &machine))
+        format!("{:#}\n", as_json(&name, &measured, &machine, &scope.left_out))
     } else {
-        format!("{}\nplot: {}\n", as_text(&name, &measured, &machine), file.display())
+        let left_out = if scope.left_out.is_empty() { String::new() } else { format!("Left out: {}\n", scope.left_out.join("; ")) };
+        format!("{}{left_out}\nplot: {}\n", as_text(&name, &measured, &machine), file.display())
     };
     Ok((text, exit))
 }
@@ -143,8 +149,60 @@ fn levels(arguments: &AccuracyArguments) -> Result<Vec<Accuracy>, Refused> {
     Ok(levels)
 }
 
-/// Computes the target at a level, from nothing, as often as its time allows.
-fn measure(arguments: &AccuracyArguments, level: Accuracy) -> Result<(Measured, Outputs), Refused> {
+/// What is computed, and what of the whole is not, with why.
+struct Scope {
+    targets: Vec<String>,
+    left_out: Vec<String>,
+}
+
+/// The target, or the article's experiments that a level of accuracy changes.
+fn scope(arguments: &AccuracyArguments) -> Result<Scope, Refused> {
+    let wanted: Vec<String> = arguments.target.iter().cloned().collect();
+    let planned = |level: Accuracy| {
+        let place = PlaceArguments { experiments: arguments.experiments.clone(), accuracy: Some(level.to_string()), ..PlaceArguments::default() };
+        let workspace = Workspace::find(&place)?;
+        workspace.load(&wanted)
+    };
+    let (loose, tight) = (planned(Accuracy::Draft)?, planned(Accuracy::Reference)?);
+    let mut scope = Scope { targets: wanted.clone(), left_out: Vec::new() };
+    for (loose, tight) in loose.iter().zip(&tight) {
+        let id = &loose.plan.id;
+        let is_same = is_unchanged(&loose.plan, &tight.plan);
+        if !wanted.is_empty() {
+            if is_same {
+                let text = format!("no level of accuracy changes what {id} computes: each part of it says its own");
+                return Err(Refused { exit: Exit::Usage, text });
+            }
+        } else if loose.place == NOT_IN_ARTICLE {
+            scope.left_out.push(format!("{id} is not in the article"));
+        } else if is_same {
+            scope.left_out.push(format!("no level changes {id}"));
+        } else {
+            scope.targets.push(id.clone());
+        }
+    }
+    if scope.targets.is_empty() {
+        return Err(Refused { exit: Exit::Usage, text: "no experiment here depends on the level of accuracy".to_owned() });
+    }
+    Ok(scope)
+}
+
+/// Whether two plans compute the same: pictures and findings say the level in words.
+fn is_unchanged(loose: &Plan, tight: &Plan) -> bool {
+    let computed = |plan: &Plan| {
+        let nodes = plan.nodes.iter().filter(|node| !is_shown(&node.address));
+        nodes.map(|node| (node.address.to_string(), node.params.clone())).collect::<Vec<_>>()
+    };
+    computed(loose) == computed(tight)
+}
+
+/// Whether a node shows what others computed.
+fn is_shown(address: &Address) -> bool {
+    address.experiment == collected::ID || [PICTURE_NODE, FINDINGS_NODE].contains(&address.node.as_str())
+}
+
+/// Computes the targets at a level, from nothing, as often as its time allows.
+fn measure(arguments: &AccuracyArguments, targets: &[String], level: Accuracy) -> Result<(Measured, Outputs), Refused> {
     let began = Instant::now();
     let mut best: Option<(Measured, Outputs)> = None;
     for _ in 0..REPEATS {
@@ -159,8 +217,7 @@ fn measure(arguments: &AccuracyArguments, level: Accuracy) -> Result<(Measured, 
             store: Some(folder.path().join("store")),
             accuracy: Some(level.to_string()),
         };
-        let targets: Vec<String> = arguments.target.iter().cloned().collect();
-        let mut session = Session::begin(&place, &targets)?;
+        let mut session = Session::begin(&place, targets)?;
         session.options.jobs = 1;
         let report = run_pipeline(&session.graph, &session.selection, &session.store, &session.options, &mut Silent);
         let found = taken(level, &report);
@@ -188,8 +245,7 @@ fn taken(level: Accuracy, report: &Report) -> Measured {
     for node in report.nodes.iter().filter(|node| node.status == Status::Ran) {
         let seconds = node.duration.map_or(0.0, |duration| duration.as_secs_f64());
         found.seconds += seconds;
-        let address = &node.address;
-        if address.experiment != collected::ID && ![PICTURE_NODE, FINDINGS_NODE].contains(&address.node.as_str()) {
+        if !is_shown(&node.address) {
             found.compute_seconds += seconds;
             found.work += node.work.unwrap_or_default();
         }
@@ -305,7 +361,7 @@ fn as_text(name: &str, measured: &[Measured], machine: &str) -> String {
         text,
         "\nOff: the largest difference to the reference, of named values relative, of columns of tables relative to their largest number.\n\
          Moved: the largest distance of what is drawn from the same in the reference's picture; + where a group of marks is in one picture only.\n\
-         Closed forms have no tolerance: at every level above article they are evaluated in f64."
+         Closed forms have no tolerance: at all levels but the reference they are evaluated in f64, and what a looser level changes is what is integrated."
     );
     for found in measured.iter().filter(|found| found.level != Accuracy::Reference) {
         let Differences { values, absolute, relative, not_comparable, tables_compared, .. } = &found.differences;
@@ -350,7 +406,7 @@ fn or_none(place: &str) -> &str {
     if place.is_empty() { "none" } else { place }
 }
 
-fn as_json(name: &str, measured: &[Measured], machine: &str) -> Value {
+fn as_json(name: &str, measured: &[Measured], machine: &str, left_out: &[String]) -> Value {
     let largest = |found: &Largest| json!({ "largest": found.size, "place": found.place });
     let levels: Vec<Value> = measured
         .iter()
@@ -383,6 +439,7 @@ fn as_json(name: &str, measured: &[Measured], machine: &str) -> Value {
     json!({
         "schema": SCHEMA,
         "target": name,
+        "left_out": left_out,
         "machine": machine,
         "visible_mm": VISIBLE_MM,
         "levels": levels,
@@ -447,7 +504,7 @@ mod tests {
         assert_eq!(unchanged_from(&measured), Some(Accuracy::Reference));
         let text = as_text("fig7", &measured, "a machine");
         assert!(text.contains("draft") && text.contains("20.0 times faster") && text.contains("0.088 mm"), "{text}");
-        let json = as_json("fig7", &measured, "a machine");
+        let json = as_json("fig7", &measured, "a machine", &[]);
         assert_eq!(json["levels"].as_array().map(Vec::len), Some(4));
         assert_eq!(json["levels"][0]["picture"]["visible"], true);
         assert_eq!(json["unchanged_from"], "reference");

@@ -3,7 +3,7 @@
 use crate::cli::accuracy::Measured;
 use crate::contract::accuracy::Accuracy;
 use crate::plot::axis::Axis;
-use crate::plot::mark::{Points, RuleLine, Side};
+use crate::plot::mark::{Points, RuleLine};
 use crate::plot::picture::{Panel, Picture, Width};
 use crate::plot::role::Role;
 
@@ -35,7 +35,7 @@ pub fn picture(name: &str, measured: &[Measured], machine: &str) -> Picture {
         Axis::new("time of the compute nodes").unit("s").log().fixed(times.0, times.1),
         Axis::new("largest difference to the reference, relative").log().fixed(errors.0, errors.1),
     )
-    .mark(Points::new(Role::SeriesA, tables).legend("columns of tables").labels(names).side(Side::Right))
+    .mark(Points::new(Role::SeriesA, tables).legend("columns of tables").labels(names))
     .mark(Points::new(Role::SeriesB, values).legend("named values"));
     if let Some(reference) = measured.iter().find(|found| found.level == Accuracy::Reference) {
         panel =
@@ -46,7 +46,7 @@ pub fn picture(name: &str, measured: &[Measured], machine: &str) -> Picture {
             "Measured on {machine}: time of all compute nodes of {name} at each level, run alone one after another from nothing, against the largest \
              difference of its numbers to those at the level reference (double-double arithmetic, integrations to 1e-28, rounded). Differences of \
              named values are relative; those of table columns are relative to the column's largest number, for tables that match row by row. A \
-             difference of zero is drawn at 1e-17. Closed forms have no tolerance: above article they are evaluated in f64 at every level."
+             difference of zero is drawn at 1e-17. Closed forms have no tolerance: at all levels but the reference they are evaluated in f64."
         ))
         .panel(panel)
 }

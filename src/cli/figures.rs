@@ -5,12 +5,15 @@ use crate::cli::arguments::{FiguresArguments, RunArguments};
 use crate::cli::console::{self, ConsoleError};
 use crate::cli::exit::Exit;
 use crate::cli::progress::{Shown, Style};
-use crate::cli::session::Session;
+use crate::cli::session::{Session, settled};
+use crate::cli::workspace::Workspace;
 use crate::experiments::definition::MEASURED_FOLDER;
 use crate::pipeline::forecast::forecast;
 use crate::pipeline::report::{ExportStatus, Outcome, Report, Status};
 use crate::pipeline::run::run as run_pipeline;
+use crate::pipeline::settled::Settled;
 use serde_json::json;
+use std::time::{Duration, Instant};
 
 /// The version of the JSON that `figures` prints.
 const SCHEMA: u32 = 1;
@@ -20,6 +23,17 @@ const SCHEMA: u32 = 1;
 /// # Errors
 /// Standard output that can't be written.
 pub fn run(arguments: &FiguresArguments) -> Result<Exit, ConsoleError> {
+    let clock = Instant::now();
+    let is_plain = arguments.targets.is_empty() && !arguments.run.json;
+    let is_told_otherwise = arguments.measure || arguments.force || arguments.dry_run;
+    if is_plain
+        && !is_told_otherwise
+        && let Some((workspace, settled)) = settled(&arguments.run)
+    {
+        console::message(&counts(&workspace, &settled, clock.elapsed()));
+        tell_measurements(&workspace, settled.note.split_whitespace());
+        return Ok(Exit::Success);
+    }
     let begin = if arguments.measure { Session::begin_measuring } else { Session::begin };
     let mut session = match begin(&arguments.run.place, &arguments.targets) {
         Ok(session) => session,
@@ -39,7 +53,8 @@ pub fn run(arguments: &FiguresArguments) -> Result<Exit, ConsoleError> {
     }
     summarise(&session, &report, &changes);
     if !arguments.measure {
-        tell_measurements(&session);
+        let measuring = session.experiments.iter().filter(|experiment| experiment.measures);
+        tell_measurements(&session.workspace, measuring.map(|experiment| experiment.plan.id.as_str()));
     }
     if !arguments.targets.is_empty() {
         for id in session.stale_in_values_file() {
@@ -85,16 +100,25 @@ fn dry_run(session: &Session, as_json: bool) -> Result<Exit, ConsoleError> {
 }
 
 /// Says where the last measurement lies of the experiments that have one and were not measured in this run.
-fn tell_measurements(session: &Session) {
-    for experiment in session.experiments.iter().filter(|experiment| experiment.measures) {
-        let id = &experiment.plan.id;
-        let picture = session.workspace.out.join(MEASURED_FOLDER).join(format!("{id}.svg"));
+fn tell_measurements<'a>(workspace: &Workspace, measuring: impl Iterator<Item = &'a str>) {
+    for id in measuring {
+        let picture = workspace.out.join(MEASURED_FOLDER).join(format!("{id}.svg"));
         if picture.is_file() {
             console::message(&format!("{id}: times as last measured: {}", picture.display()));
         } else {
             console::message(&format!("{id}: times not measured here: polhode figures {id} --measure"));
         }
     }
+}
+
+/// What is said where a run would find nothing to do: as after a run that found so.
+fn counts(workspace: &Workspace, settled: &Settled, elapsed: Duration) -> String {
+    let Settled { nodes, outputs, .. } = settled;
+    format!(
+        "{nodes} nodes: 0 ran, {nodes} up to date; {outputs} outputs in {}: 0 written; {:.2} s",
+        workspace.out.display(),
+        elapsed.as_secs_f64()
+    )
 }
 
 /// Says on standard error what a run did.

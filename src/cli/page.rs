@@ -49,8 +49,12 @@ const KIND: Kind = Kind {
         "cli/page.rs",
         "contract/claim.rs",
         "contract/value.rs",
+        "effects/product.rs",
         "pipeline/diagram.rs",
+        "pipeline/graph.rs",
         "pipeline/picture.rs",
+        "pipeline/render.rs",
+        "pipeline/select.rs",
         "table",
     ],
     measurement: false,
@@ -64,6 +68,8 @@ struct Entry {
     place: &'static str,
     /// Its module in this program's source.
     module: String,
+    /// Whether that file lies where the page can link to it.
+    has_source: bool,
     /// Names and paths of its tables.
     tables: Vec<(String, String)>,
 }
@@ -83,13 +89,13 @@ struct PageOf {
 ///
 /// # Errors
 /// Parameters that can't be written in a manifest.
-pub fn plan(experiments: &[Loaded]) -> Result<Plan, NodeError> {
+pub fn plan(experiments: &[Loaded], has_source: bool) -> Result<Plan, NodeError> {
     let defect = |error: crate::contract::manifest::NotDescribable| NodeError::new(error.to_string());
     // Scenes are no part of the article.
     let mut in_order: Vec<&Loaded> = experiments.iter().filter(|loaded| loaded.kind != SCENE).collect();
     let rank = |loaded: &&Loaded| experiments::ALL.iter().position(|known| known.kind == loaded.kind);
     in_order.sort_by_key(rank);
-    let entries: Vec<Entry> = in_order.iter().map(|loaded| entry(loaded)).collect();
+    let entries: Vec<Entry> = in_order.iter().map(|loaded| entry(loaded, has_source)).collect();
     let metrics = METRICS
         .iter()
         .map(|(metric, effects)| (*metric, effects.iter().map(|effect| effect.name()).collect()))
@@ -110,7 +116,7 @@ pub fn plan(experiments: &[Loaded]) -> Result<Plan, NodeError> {
             &Address::new(id.clone(), FINDINGS_NODE),
             FINDINGS_FILE,
         );
-        for made in loaded.plan.exports.iter().filter(|made| made.artifact == TABLE && made.path.starts_with("data/")) {
+        for made in tables_of(loaded) {
             let name = made.from.file_stem();
             node = node.input(table_input(id, &name), &made.from, TABLE);
         }
@@ -122,11 +128,15 @@ pub fn plan(experiments: &[Loaded]) -> Result<Plan, NodeError> {
     Ok(Plan { id: ID.to_owned(), nodes: vec![loci, node], exports, ..Plan::default() })
 }
 
-fn entry(loaded: &Loaded) -> Entry {
+/// The tables that an experiment shows its readers.
+fn tables_of(loaded: &Loaded) -> impl Iterator<Item = &Export> {
+    loaded.plan.exports.iter().filter(|made| made.artifact == TABLE && made.path.starts_with("data/"))
+}
+
+fn entry(loaded: &Loaded, has_source: bool) -> Entry {
     let (id, module) = (loaded.plan.id.clone(), format!("src/experiments/{}.rs", loaded.kind));
-    let made = loaded.plan.exports.iter().filter(|made| made.artifact == TABLE && made.path.starts_with("data/"));
-    let tables = made.map(|made| (made.from.file_stem(), made.path.clone())).collect();
-    Entry { id, title: loaded.title, place: loaded.place, module, tables }
+    let tables = tables_of(loaded).map(|made| (made.from.file_stem(), made.path.clone())).collect();
+    Entry { id, title: loaded.title, place: loaded.place, module, has_source, tables }
 }
 
 /// A plan as it is where nothing is measured: the page is the same before and after.
@@ -156,13 +166,8 @@ fn graph_picture(plans: &[Plan]) -> Result<String, NodeError> {
     let svg = render(&graph, &selection, Format::Svg);
     // Inside a page there is no prologue, and rules of style must not reach beyond the picture.
     let picture = svg.find("<svg").map_or("", |start| &svg[start..]);
-    let Some(((before, style), after)) = picture
-        .split_once("<style>")
-        .and_then(|(before, rest)| Some((before, rest.split_once("</style>")?)))
-        .map(|(before, (style, after))| ((before, style), after))
-    else {
-        return Ok(picture.to_owned());
-    };
+    let Some((before, rest)) = picture.split_once("<style>") else { return Ok(picture.to_owned()) };
+    let Some((style, after)) = rest.split_once("</style>") else { return Ok(picture.to_owned()) };
     let scoped: String = style.split_inclusive('}').map(|rule| format!(".graph {rule}")).collect();
     let before = before.replacen("<svg", "<svg class=\"graph\"", 1);
     Ok(format!("{before}<style>{scoped}</style>{after}"))
@@ -192,7 +197,7 @@ impl Compute for PageOf {
     fn run(&self, inputs: &Inputs) -> Result<Product, NodeError> {
         let mut parts = Vec::new();
         let mut artifacts = Vec::new();
-        for Entry { id, title, place, module, tables } in &self.entries {
+        for Entry { id, title, place, module, has_source, tables } in &self.entries {
             let picture = String::from_utf8_lossy(&inputs.get(&picture_input(id))?.bytes).into_owned();
             let findings = collected::findings(&inputs.get(&findings_input(id))?.bytes)?;
             let (mut read, mut csv_files) = (Vec::new(), Vec::new());
@@ -203,7 +208,7 @@ impl Compute for PageOf {
                 read.push((name.clone(), path.clone(), table));
             }
             if !csv_files.is_empty() {
-                artifacts.push(Artifact::opaque(csv_artifact(id), zip::stored(&csv_files)));
+                artifacts.push(Artifact::opaque(csv_artifact(id), zip::archive(&csv_files)));
             }
             parts.push(Part {
                 id: id.clone(),
@@ -212,6 +217,7 @@ impl Compute for PageOf {
                 picture,
                 findings,
                 module: module.clone(),
+                has_source: *has_source,
                 tables: read,
             });
         }

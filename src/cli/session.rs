@@ -1,7 +1,7 @@
 //! What verbs that look at the graph share: configs planned, joined to a graph, beside a store and an output folder.
 
 use crate::check::values_toml::{self, Change, Values};
-use crate::cli::arguments::PlaceArguments;
+use crate::cli::arguments::{PlaceArguments, RunArguments};
 use crate::cli::collected;
 use crate::cli::console;
 use crate::cli::exit::Exit;
@@ -17,6 +17,7 @@ use crate::pipeline::graph::Graph;
 use crate::pipeline::report::Report;
 use crate::pipeline::run::Options;
 use crate::pipeline::select::Selection;
+use crate::pipeline::settled::{self, Question, Settled};
 use crate::pipeline::store::Store;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -118,7 +119,7 @@ impl Session {
             plans.push(plan.map_err(|error| Refused { exit: Exit::Defect, text: error.to_string() })?);
             let has_article = experiments.iter().any(|experiment| experiment.kind != "scene");
             if has_article && workspace.accuracy.is_none_or(|level| level == Accuracy::Article) {
-                let plan = page::plan(&experiments);
+                let plan = page::plan(&experiments, workspace.has_source());
                 plans.push(plan.map_err(|error| Refused { exit: Exit::Defect, text: error.to_string() })?);
             }
         }
@@ -127,12 +128,16 @@ impl Session {
         let selection =
             graph.select(&targets).map_err(|error| Refused { exit: Exit::Usage, text: error.to_string() })?;
         let store = Store::at(folder);
-        let root = if workspace.root.as_os_str().is_empty() { PathBuf::from(".") } else { workspace.root.clone() };
-        let mut options = Options::new(root, workspace.out.clone());
+        let mut options = options(&workspace);
+        if whole && !workspace.measure {
+            let configs = experiments.iter().map(|loaded| (loaded.plan.id.as_str(), loaded.plan.config.text.as_str()));
+            let measuring = experiments.iter().filter(|loaded| loaded.measures).map(|loaded| loaded.plan.id.as_str());
+            let note = measuring.collect::<Vec<_>>().join(" ");
+            options.question = Some(Question { digest: workspace.question(configs), note });
+        }
         if whole {
             options.known_exports = Some(graph.export_paths());
         }
-        options.unscanned = unscanned(&workspace);
         Ok(Self { workspace, experiments, graph, selection, store, options })
     }
 
@@ -186,6 +191,30 @@ impl Session {
         }
         stale
     }
+}
+
+/// Asks the disk whether a run of the whole would find nothing to do: nothing is planned, every byte is hashed. None where that is
+/// not known.
+pub fn settled(arguments: &RunArguments) -> Option<(Workspace, Settled)> {
+    let workspace = Workspace::find(&arguments.place).ok()?;
+    let mut configs = Vec::new();
+    for (id, file) in workspace.configs().ok()? {
+        configs.push((id, std::fs::read_to_string(file).ok()?));
+    }
+    let question = workspace.question(configs.iter().map(|(id, text)| (id.as_str(), text.as_str())));
+    let store = Store::at(workspace.store.join(STORE_FORMAT));
+    let mut options = options(&workspace);
+    options.jobs = arguments.jobs.map_or(options.jobs, std::num::NonZeroUsize::get);
+    let settled = settled::settled(&store, &options, &question)?;
+    Some((workspace, settled))
+}
+
+/// How runs in a workspace go.
+fn options(workspace: &Workspace) -> Options {
+    let root = if workspace.root.as_os_str().is_empty() { PathBuf::from(".") } else { workspace.root.clone() };
+    let mut options = Options::new(root, workspace.out.clone());
+    options.unscanned = unscanned(workspace);
+    options
 }
 
 /// Makes the code listings of all kinds on two threads: they are remembered, and half of what planning takes.

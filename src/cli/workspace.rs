@@ -2,8 +2,9 @@
 
 use crate::cli::arguments::PlaceArguments;
 use crate::contract::accuracy::{Accuracy, UnknownAccuracy};
+use crate::contract::code;
 use crate::contract::config::{self, ConfigError};
-use crate::contract::digest::Digest;
+use crate::contract::digest::{Digest, Framed};
 use crate::contract::plan::{ConfigSource, Plan};
 use crate::experiments;
 use crate::experiments::definition::{MEASURED_FOLDER, PlanError, Request};
@@ -134,6 +135,11 @@ impl Workspace {
         Ok(Self { experiments, out, store, root, accuracy, measure: false })
     }
 
+    /// Whether the outputs lie in a clone of this program's repository, beside its source: then the page can link to it.
+    pub fn has_source(&self) -> bool {
+        self.out == self.root.join(FIGURES) && self.root.join("src").join(EXPERIMENTS).is_dir()
+    }
+
     /// The configs there are: id and file, by id.
     ///
     /// # Errors
@@ -150,6 +156,18 @@ impl Workspace {
         }
         configs.sort_by_key(|(id, _)| sort_key(id));
         Ok(configs)
+    }
+
+    /// What a run of the whole is asked: the program, the accuracy, whether there is source to link to, and these configs, as (id, text).
+    pub fn question<'a>(&self, configs: impl Iterator<Item = (&'a str, &'a str)>) -> Digest {
+        let mut framed = Framed::new("polhode question 1");
+        framed.field(&code::program().0);
+        framed.field(self.accuracy.map(|level| level.to_string()).unwrap_or_default().as_bytes());
+        framed.field(&[u8::from(self.has_source())]);
+        for (id, text) in configs {
+            framed.field(id.as_bytes()).field(text.as_bytes());
+        }
+        framed.finish()
     }
 
     /// Plans the experiments that the targets need; all where none is given. A target is an experiment's id, an output

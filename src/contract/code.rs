@@ -6,7 +6,7 @@
 //! these files, the external crates that they reach, and the compiler. Comments, docs, layout, test code and files that
 //! only list modules are not in it.
 
-use super::digest::Digest;
+use super::digest::{Digest, Framed};
 use super::node::Kind;
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -45,6 +45,17 @@ pub const COMPILER: &str = generated::COMPILER;
 
 /// The files that take part, ordered by path.
 pub const FILES: &[FileCode] = generated::FILES;
+
+/// The digest of this program: all files, the external crates, the compiler. What is planned follows from it and the configs.
+pub fn program() -> Digest {
+    let mut framed = Framed::new("polhode program 1");
+    let files = FILES.iter().map(|file| (file.path, file.digest));
+    let crates = generated::CRATES.iter().map(|found| (found.name, found.version));
+    for (name, value) in files.chain(crates).chain([("compiler", COMPILER)]) {
+        framed.field(name.as_bytes()).field(value.as_bytes());
+    }
+    framed.finish()
+}
 
 /// Rooms' parts that results do not depend on: the contract's own machinery, whose changes show in the keys themselves.
 const MACHINERY: &[&str] = &[

@@ -10,7 +10,7 @@
 //! work is drawn against the error achieved, and what was asked for in a second row. The equations of Lemma 4.1 as printed, in angles,
 //! are integrated too: as a warning.
 
-use super::definition::{Definition, Experiment, Measured, findings_kind, picture_kind};
+use super::definition::{Definition, Experiment, Measured, NOT_IN_ARTICLE, findings_kind, picture_kind};
 use super::findings::{Cases, quantities, unread};
 use super::nodes::Nodes;
 use super::three_problems::{
@@ -183,7 +183,7 @@ impl Definition for AccuracyCost {
 
     const ID: &'static str = "accuracy";
     const TITLE: &'static str = "what accuracy costs";
-    const PLACE: &'static str = "not in the article";
+    const PLACE: &'static str = NOT_IN_ARTICLE;
     const PICTURE: &'static Kind = &PICTURE;
     const FINDINGS: &'static Kind = &FINDINGS;
     const MEASURED: Option<Measured<Params>> =

@@ -8,7 +8,7 @@
 //! The hard spot: work per coefficient differs. So the multiplications in the series are counted too, by running the equations on
 //! numbers that count; what observers do (an event's own series, roots) is counted apart.
 
-use super::definition::{Definition, Experiment, Measured, findings_kind, picture_kind};
+use super::definition::{Definition, Experiment, Measured, NOT_IN_ARTICLE, findings_kind, picture_kind};
 use super::findings::{Cases, unread};
 use super::nodes::Nodes;
 use super::three_problems::{
@@ -119,7 +119,7 @@ impl Definition for Cost {
 
     const ID: &'static str = "cost_of_effects";
     const TITLE: &'static str = "what each effect costs";
-    const PLACE: &'static str = "not in the article";
+    const PLACE: &'static str = NOT_IN_ARTICLE;
     const PICTURE: &'static Kind = &PICTURE;
     const FINDINGS: &'static Kind = &FINDINGS;
     const MEASURED: Option<Measured<Params>> =

@@ -38,6 +38,9 @@ pub const FINDINGS_NODE: &str = "findings";
 /// Height of a picture without panels of its own: that of its legend (mm).
 const LEGEND_MM: f64 = 6.0;
 
+/// The place of an experiment that the article does not have.
+pub const NOT_IN_ARTICLE: &str = "not in the article";
+
 /// An experiment, as its module writes it.
 pub trait Definition: 'static {
     /// The config's content beside `kind = "…"`.

@@ -72,6 +72,13 @@ impl Store {
         parsed.map_or((Heads::default(), Some(Fault::Altered)), |heads| (heads, None))
     }
 
+    /// Where an experiment's heads lie and what that file's bytes digest to, when it is there and whole.
+    pub(super) fn sound_heads(&self, view: &str, experiment: &str) -> Option<(PathBuf, Digest)> {
+        let path = self.heads_path(view, experiment);
+        let text = self.disk().read(&path).ok()?;
+        unseal(HEADER, &text).is_ok().then(|| (path, Digest::of(&text)))
+    }
+
     /// What is remembered of all experiments of all views, as (view, experiment, heads or what is wrong with the file).
     ///
     /// # Errors

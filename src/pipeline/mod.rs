@@ -20,6 +20,7 @@
 //!   [`Store::artifact`](store::Store::artifact) by key, for old values ([`NodeReport::previous`](report::NodeReport)).
 //! - [`verify`](verify::verify) reads the whole store and computes a sample of it again; [`gc`](gc::gc) drops what no last
 //!   run needs.
+//! - [`settled`](settled::settled) says, before anything is planned, that a whole run would find nothing to do.
 //! - [`Events`](events::Events) hears of everything as it happens, on the caller's thread.
 //!
 //! Nodes run on threads of their own, at most `jobs` at once; what they do in parallel inside goes to rayon's global
@@ -27,7 +28,7 @@
 //!
 //! Map: `graph` joins plans, `select` finds what targets need; `schedule` decides what runs (its states are listed there;
 //! `examine` and `start` are its two questions), `work` does it; `record`,
-//! `store`, `format`, `heads`, `runs` are the files of the store, `disk` all calls to the file system (with a place for fault
+//! `store`, `format`, `heads`, `settled`, `runs` are the files of the store, `disk` all calls to the file system (with a place for fault
 //! injection), `exports` the output folder; `forecast`, `reason`, `locate`, `why` explain; `render` writes the graph, `diagram` and `picture` draw it.
 //!
 //! Invariants: nothing is believed that was not hashed in this run. Objects are durable before the record that names
@@ -57,6 +58,7 @@ pub mod run;
 pub mod runs;
 mod schedule;
 pub mod select;
+pub mod settled;
 mod start;
 pub mod store;
 pub mod stored;

@@ -136,6 +136,8 @@ pub enum Subject {
     Listing,
     /// The memory of an experiment's last keys.
     Heads,
+    /// The memory of what the last whole run left settled.
+    Settled,
     /// The marker of the store's format.
     Format,
     /// A file in the output folder.
@@ -178,6 +180,7 @@ impl std::fmt::Display for Damage {
             Subject::Object => "stored object",
             Subject::Listing => "stored code listing",
             Subject::Heads => "memory of last keys",
+            Subject::Settled => "memory of the last settled run",
             Subject::Format => "marker of the store's format",
             Subject::Output => "output",
         };

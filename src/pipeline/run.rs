@@ -9,6 +9,7 @@ use super::report::{Damage, ExportReport, ExportStatus, NodeReport, Repair, Repo
 use super::runs::PastRun;
 use super::schedule::Scheduler;
 use super::select::Selection;
+use super::settled::{self, Question};
 use super::store::{Session, Store, StoreError};
 use crate::contract::digest::Digest;
 use crate::contract::plan::Export;
@@ -33,6 +34,8 @@ pub struct Options {
     pub known_exports: Option<BTreeSet<String>>,
     /// Paths below the output folder that are not looked at: `measured`, `article`, `draft`.
     pub unscanned: Vec<String>,
+    /// What this run answers, when it is of the whole: if everything is settled, the next one need not plan to know it.
+    pub question: Option<Question>,
 }
 
 impl Options {
@@ -46,6 +49,7 @@ impl Options {
             fail_fast: false,
             known_exports: None,
             unscanned: Vec::new(),
+            question: None,
         }
     }
 }
@@ -93,6 +97,7 @@ pub fn run(graph: &Graph, selection: &Selection, store: &Store, options: &Option
     sync_folders(&mut report, store, options);
     keep_listings(graph, selection, store, &listings, &mut report, events);
     remember_heads(graph, selection, store, &view, &heads, &mut report);
+    remember_settled(graph, selection, store, options, &mut report, events);
     report.elapsed = clock.elapsed();
     let superseded = superseded(graph, selection, &heads, &report);
     if let Some(past) = PastRun::of(&report, &selection.targets, superseded, began, report.elapsed)
@@ -258,6 +263,25 @@ fn remember_heads(
             report.warnings.push(format!("the keys of {} are not remembered: {error}", graph.experiments[plan].0));
         }
     }
+}
+
+/// Writes down what a whole run left. It saves time and nothing else, so a store that can't be written is no matter here.
+fn remember_settled(
+    graph: &Graph,
+    selection: &Selection,
+    store: &Store,
+    options: &Options,
+    report: &mut Report,
+    events: &mut dyn Events,
+) {
+    let Some(question) = &options.question else { return };
+    if let Some((path, fault)) = settled::fault(store, options) {
+        let path = path.display().to_string();
+        let damage = Damage { subject: Subject::Settled, path, address: None, fault, repair: Repair::Rewritten };
+        events.damaged(&damage);
+        report.damage.push(damage);
+    }
+    let _ = settled::remember(graph, selection, store, options, question, report);
 }
 
 /// The keys that were the last ones of their addresses before this run and no longer are: what `gc --keep` needs to know

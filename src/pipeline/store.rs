@@ -4,6 +4,7 @@
 //! ROOT/.polhode/v1/objects/ab/ab12…   bytes, named by their SHA-256
 //!                  records/KEY        what a node gave back (see `record`)
 //!                  heads/VIEW/ID      per experiment: address → last key (see `heads`)
+//!                  settled/VIEW       what the last whole run left, when it left all in order (see `settled`)
 //!                  locks/KEY          held while that key is computed; `store` is shared by runs, exclusive for gc
 //!                  runs/TIME-PID.json past runs, durations included (see `runs`)
 //!                  tmp/               files being written; leftovers of killed runs are removed when no run is alive
