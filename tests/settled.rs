@@ -81,8 +81,14 @@ fn every_harm_to_every_file_is_noticed() {
             harmful(path);
             assert_eq!(answer(&bench, 0.8), None, "{harm} {}", path.display());
             let report = run_whole(&bench, 0.8);
-            let is_silent = harm == "deleted" && ["heads", "settled"].iter().any(|room| path.iter().any(|part| part == *room));
-            assert!(is_silent != report.damage.iter().any(|damage| Path::new(&damage.path) == path), "{harm} {}: {:?}", path.display(), report.damage);
+            let is_silent =
+                harm == "deleted" && ["heads", "settled"].iter().any(|room| path.iter().any(|part| part == *room));
+            assert!(
+                is_silent != report.damage.iter().any(|damage| Path::new(&damage.path) == path),
+                "{harm} {}: {:?}",
+                path.display(),
+                report.damage
+            );
         }
     }
     assert!(answer(&bench, 0.8).is_some());

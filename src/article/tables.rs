@@ -87,7 +87,15 @@ pub fn accuracy(page: &mut String, content: &Content) -> Result<(), PageError> {
     let missing = |error: crate::table::TableError| PageError::Table { part: part.id.clone(), why: error.to_string() };
     head(
         page,
-        &["metric", "method", "error asked for", "achieved, at worst", "median", "multiplications a point", "times the closed form's"],
+        &[
+            "metric",
+            "method",
+            "error asked for",
+            "achieved, at worst",
+            "median",
+            "multiplications a point",
+            "times the closed form's",
+        ],
     );
     for (name, _, table) in &part.tables {
         if !table.has("multiplications") {

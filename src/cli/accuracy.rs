@@ -127,7 +127,11 @@ fn answered(arguments: &AccuracyArguments) -> Result<(String, Exit), Refused> {
     let text = if arguments.json {
         format!("{:#}\n", as_json(&name, &measured, &machine, &scope.left_out))
     } else {
-        let left_out = if scope.left_out.is_empty() { String::new() } else { format!("Left out: {}\n", scope.left_out.join("; ")) };
+        let left_out = if scope.left_out.is_empty() {
+            String::new()
+        } else {
+            format!("Left out: {}\n", scope.left_out.join("; "))
+        };
         format!("{}{left_out}\nplot: {}\n", as_text(&name, &measured, &machine), file.display())
     };
     Ok((text, exit))
@@ -159,7 +163,11 @@ struct Scope {
 fn scope(arguments: &AccuracyArguments) -> Result<Scope, Refused> {
     let wanted: Vec<String> = arguments.target.iter().cloned().collect();
     let planned = |level: Accuracy| {
-        let place = PlaceArguments { experiments: arguments.experiments.clone(), accuracy: Some(level.to_string()), ..PlaceArguments::default() };
+        let place = PlaceArguments {
+            experiments: arguments.experiments.clone(),
+            accuracy: Some(level.to_string()),
+            ..PlaceArguments::default()
+        };
         let workspace = Workspace::find(&place)?;
         workspace.load(&wanted)
     };
@@ -182,7 +190,10 @@ fn scope(arguments: &AccuracyArguments) -> Result<Scope, Refused> {
         }
     }
     if scope.targets.is_empty() {
-        return Err(Refused { exit: Exit::Usage, text: "no experiment here depends on the level of accuracy".to_owned() });
+        return Err(Refused {
+            exit: Exit::Usage,
+            text: "no experiment here depends on the level of accuracy".to_owned(),
+        });
     }
     Ok(scope)
 }

@@ -61,13 +61,27 @@ impl fmt::Display for Address {
     }
 }
 
+/// What becomes a file when it is written.
+pub trait Encode: Send + Sync {
+    /// The file's bytes, with what it was made from, as (name, value), where its format has a place for that.
+    ///
+    /// # Errors
+    /// What the format refuses.
+    fn encode(&self, made_from: &[(String, String)]) -> Result<Vec<u8>, NodeError>;
+}
+
+#[derive(Clone)]
+enum Content {
+    Bytes(Arc<Vec<u8>>),
+    Unwritten(Arc<dyn Encode>),
+}
+
 /// One output of a node.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone)]
 pub struct Artifact {
     /// The name inside the node: `table.parquet`.
     pub name: String,
-    /// The file's bytes.
-    pub bytes: Vec<u8>,
+    content: Content,
     /// The digest of what the file says: of a table, its schema and the bits of its columns; of other files, their
     /// bytes. Nodes downstream depend on this one.
     pub logical: Digest,
@@ -77,9 +91,39 @@ impl Artifact {
     /// A file whose meaning is its bytes.
     pub fn opaque(name: impl Into<String>, bytes: Vec<u8>) -> Self {
         let logical = Digest::of(&bytes);
-        Self { name: name.into(), bytes, logical }
+        Self { name: name.into(), content: Content::Bytes(Arc::new(bytes)), logical }
+    }
+
+    /// A file that is written after the node's work: that takes time, and is no part of computing.
+    pub fn unwritten(name: impl Into<String>, logical: Digest, content: impl Encode + 'static) -> Self {
+        Self { name: name.into(), content: Content::Unwritten(Arc::new(content)), logical }
+    }
+
+    /// The file's bytes.
+    ///
+    /// # Errors
+    /// What its format refuses.
+    pub fn bytes(&self, made_from: &[(String, String)]) -> Result<Arc<Vec<u8>>, NodeError> {
+        match &self.content {
+            Content::Bytes(bytes) => Ok(Arc::clone(bytes)),
+            Content::Unwritten(content) => content.encode(made_from).map(Arc::new),
+        }
     }
 }
+
+impl fmt::Debug for Artifact {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Artifact").field("name", &self.name).field("logical", &self.logical).finish_non_exhaustive()
+    }
+}
+
+/// Artifacts are equal when they say the same under the same name.
+impl PartialEq for Artifact {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.name, self.logical) == (&other.name, other.logical)
+    }
+}
+impl Eq for Artifact {}
 
 /// What a node gives back.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -230,6 +274,12 @@ impl Node {
             self.compute = Arc::new(InArithmetic { arithmetic, compute: self.compute });
         }
         self
+    }
+
+    /// What its files are made from, as far as they say so: kind, arithmetic where it is chosen, parameters.
+    pub fn made_from(&self) -> Vec<(String, String)> {
+        let parameters: Vec<String> = self.params.iter().map(|line| format!("{} = {}", line.path, line.leaf)).collect();
+        vec![("kind".to_owned(), self.compute.kind().name.to_owned()), ("parameters".to_owned(), parameters.join("\n"))]
     }
 
     /// Declares an input.

@@ -177,7 +177,7 @@ mod tests {
 
     fn table(k: Vec<f64>) -> Table {
         let node = ConjugatePointVersusK { p_theta: 1e-4, k: Sweep::List(k), refined: false };
-        Table::from_parquet(&node.run(&Inputs::default()).unwrap().artifacts[0].bytes).unwrap()
+        Table::from_parquet(&node.run(&Inputs::default()).unwrap().artifacts[0].bytes(&[]).unwrap()).unwrap()
     }
 
     /// Oracle: tests/oracle/spin_fig4.json (integration at 30 digits): k = 1.02 and 1.04, p_θ = 1e-4.

@@ -1,7 +1,7 @@
 //! From tables to a node's product and back: the file name, the Parquet footer, the logical digest.
 
 use crate::contract::digest::Digest;
-use crate::contract::node::{Artifact, Inputs, NodeError, Product};
+use crate::contract::node::{Artifact, Encode, Inputs, NodeError, Product};
 use crate::contract::work::Work;
 use crate::table::Table;
 use std::fmt::Display;
@@ -9,14 +9,22 @@ use std::fmt::Display;
 /// The name of the one table that a compute node makes.
 pub const TABLE: &str = "table.parquet";
 
+/// A table that becomes a Parquet file; its footer says what it was made from.
+struct Parquet(Table);
+
+impl Encode for Parquet {
+    fn encode(&self, made_from: &[(String, String)]) -> Result<Vec<u8>, NodeError> {
+        self.0.to_parquet(made_from).map_err(failed("the table can't be written"))
+    }
+}
+
 /// The product of a node that makes one table; the rows are counted into its work.
 ///
 /// # Errors
-/// A table that can't be written.
+/// None now; the file is written after the work, and may fail then.
 pub fn product(table: &Table, mut work: Work) -> Result<Product, NodeError> {
     work.rows = table.rows() as u64;
-    let bytes = table.to_parquet(&[]).map_err(failed("the table can't be written"))?;
-    let artifact = Artifact { name: TABLE.to_owned(), bytes, logical: Digest(table.logical_digest()) };
+    let artifact = Artifact::unwritten(TABLE, Digest(table.logical_digest()), Parquet(table.clone()));
     Ok(Product { artifacts: vec![artifact], work })
 }
 

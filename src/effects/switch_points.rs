@@ -107,7 +107,7 @@ mod tests {
     fn poles_and_equator_alternate() {
         let run = |k_low, k_high| {
             let product = SwitchPoints { p_theta: 1e-4, k_low, k_high }.run(&Inputs::default()).unwrap();
-            (Table::from_parquet(&product.artifacts[0].bytes).unwrap(), product.work)
+            (Table::from_parquet(&product.artifacts[0].bytes(&[]).unwrap()).unwrap(), product.work)
         };
         let (table, work) = run(1.0, 1.5);
         assert_eq!(table.texts("passage").unwrap(), &["pole", "equator", "pole", "equator", "pole"]);

@@ -145,7 +145,7 @@ mod tests {
         let (k, p_theta) = (Sweep::List(vec![1.0, 1.3]), Sweep::List(vec![0.5, 3.0]));
         let node = TrajectoryTypes { k, p_theta, smallest_p_theta: 1e-4, decrease_tolerance: 0.03, accuracy: 1e-14 };
         let product = node.run(&Inputs::default()).unwrap();
-        let table = Table::from_parquet(&product.artifacts[0].bytes).unwrap();
+        let table = Table::from_parquet(&product.artifacts[0].bytes(&[]).unwrap()).unwrap();
         assert_eq!(table.texts("type").unwrap(), &["i", "i", "i", "iv", "iv", "i"]);
         assert_eq!(table.f64s("p_theta").unwrap()[..3], [1e-4, 0.5, 3.0]);
         assert!(table.f64s("t_exit").unwrap()[0].is_nan());

@@ -192,11 +192,9 @@ impl Compute for TypeRanges {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contract::digest::Digest;
     use crate::contract::node::InputFile;
     use crate::contract::sweep::Sweep;
     use crate::effects::trajectory_types::TrajectoryTypes;
-    use std::sync::Arc;
 
     /// Oracle: type ii begins where the conjugate point passes the pole, for `p_θ = 1e-4` at k1 = 1.0606601737685591
     /// (integration at 300 bits), up to the order p_θ² by which the exit lies later. A coarse grid: the ends do not
@@ -208,10 +206,10 @@ mod tests {
         let grid = grid.run(&Inputs::default()).unwrap();
         let artifact = &grid.artifacts[0];
         let mut inputs = Inputs::default();
-        let file = InputFile { bytes: Arc::new(artifact.bytes.clone()), logical: Digest::of(&artifact.bytes) };
+        let file = InputFile { bytes: artifact.bytes(&[]).unwrap(), logical: artifact.logical };
         inputs.insert(INPUT, file);
         let product = TypeRanges { decrease_tolerance: 0.03, accuracy: 1e-14 }.run(&inputs).unwrap();
-        let table = Table::from_parquet(&product.artifacts[0].bytes).unwrap();
+        let table = Table::from_parquet(&product.artifacts[0].bytes(&[]).unwrap()).unwrap();
         assert_eq!(table.texts("type").unwrap(), &["i", "ii"]);
         assert_eq!(table.bools("from_is_end_of_grid").unwrap(), &[true, false]);
         assert_eq!(table.bools("to_is_end_of_grid").unwrap(), &[true, true]);

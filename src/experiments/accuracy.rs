@@ -604,7 +604,7 @@ mod tests {
         let mut tables = Tables::new();
         for node in plan(true).nodes.iter().filter(|node| node.compute.kind().measurement) {
             let product = node.compute.run(&crate::contract::node::Inputs::default()).unwrap();
-            let table = Table::from_parquet(&product.artifacts[0].bytes).unwrap();
+            let table = Table::from_parquet(&product.artifacts[0].bytes(&[]).unwrap()).unwrap();
             assert!(table.f64s("microseconds").unwrap().iter().all(|time| *time > 0.0));
             // Lanes have the numbers of one at a time, and nothing was missed.
             let errors = Errors::timed(&table).unwrap();

@@ -6,7 +6,6 @@ use crate::contract::value::Findings;
 use crate::experiments::definition::{Experiment, FINDINGS_FILE};
 use crate::table::Table;
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 /// What an experiment made.
 pub struct Preview {
@@ -23,7 +22,8 @@ impl Preview {
             .iter()
             .find(|(address, _)| address.to_string().split_once('/').is_some_and(|(_, rest)| rest == name))
             .unwrap_or_else(|| panic!("no node {name}"));
-        Table::from_parquet(&product.artifacts[0].bytes).unwrap_or_else(|error| panic!("{address}: {error}"))
+        Table::from_parquet(&product.artifacts[0].bytes(&[]).expect("a file"))
+            .unwrap_or_else(|error| panic!("{address}: {error}"))
     }
 
     /// The named value.
@@ -55,12 +55,12 @@ pub fn run_text(experiment: &Experiment, text: String) -> Preview {
             for input in &node.inputs {
                 let Some(product) = products.get(&input.from) else { return true };
                 let artifact = product.artifacts.iter().find(|a| a.name == input.artifact).expect("the artifact");
-                let file = InputFile { bytes: Arc::new(artifact.bytes.clone()), logical: artifact.logical };
+                let file = InputFile { bytes: artifact.bytes(&[]).expect("a file"), logical: artifact.logical };
                 inputs.insert(input.name.clone(), file);
             }
             let begun = std::time::Instant::now();
             let product = node.compute.run(&inputs).unwrap_or_else(|error| panic!("{}: {error}", node.address));
-            let size: usize = product.artifacts.iter().map(|a| a.bytes.len()).sum();
+            let size: usize = product.artifacts.iter().map(|a| a.bytes(&[]).expect("a file").len()).sum();
             println!("{:<60} {:>8.1?} {size:>8} bytes  {:?}", node.address.to_string(), begun.elapsed(), product.work);
             products.insert(node.address.clone(), product);
             false
@@ -71,13 +71,13 @@ pub fn run_text(experiment: &Experiment, text: String) -> Preview {
         let artifact =
             products[&export.from].artifacts.iter().find(|a| a.name == export.artifact).expect("the artifact");
         let name = export.path.replace('/', "_");
-        std::fs::write(format!("{folder}/{name}"), &artifact.bytes).expect("a file");
+        std::fs::write(format!("{folder}/{name}"), artifact.bytes(&[]).expect("a file").as_slice()).expect("a file");
     }
     let bytes = products
         .values()
         .flat_map(|product| &product.artifacts)
         .find(|artifact| artifact.name == FINDINGS_FILE)
-        .map(|artifact| artifact.bytes.clone())
+        .map(|artifact| artifact.bytes(&[]).expect("a file").to_vec())
         .expect("findings");
     Preview { products, findings: serde_json::from_slice(&bytes).expect("findings that read back") }
 }

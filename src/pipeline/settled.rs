@@ -82,7 +82,8 @@ pub fn settled(store: &Store, options: &Options, question: &Digest) -> Option<Se
     if !store.disk().try_lock_shared(&lock, &lock_path).ok()? || !store.leftovers(&store.scratch()).is_empty() {
         return None;
     }
-    let is_as_it_was = |(file, digest): &(PathBuf, Digest)| store.disk().hash(file).is_ok_and(|(found, _)| found == *digest);
+    let is_as_it_was =
+        |(file, digest): &(PathBuf, Digest)| store.disk().hash(file).is_ok_and(|(found, _)| found == *digest);
     if !parallel::map(&files, options.jobs, is_as_it_was).into_iter().all(|is| is) {
         return None;
     }

@@ -6,7 +6,8 @@ use super::record::{Output, Record};
 use super::report::{ExportStatus, Failure};
 use super::store::{Fault, Put, Store, StoreError};
 use crate::contract::digest::Digest;
-use crate::contract::node::{InputFile, Inputs, Product};
+use crate::contract::node::{Artifact, InputFile, Inputs};
+use crate::contract::work::Work;
 use std::any::Any;
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -58,25 +59,38 @@ pub(super) fn execute(graph: &Graph, store: &Store, job: Job) -> Result<Done, Fa
 }
 
 fn attempt(graph: &Graph, store: &Store, job: Job) -> Result<Done, Failure> {
-    let (product, duration) = compute(graph, store, job.node, &job.logical, &job.objects)?;
-    let (record, replaced) = keep(graph, store, &job, &product).map_err(Failure::Store)?;
+    let (made, duration) = compute(graph, store, job.node, &job.logical, &job.objects)?;
+    let (record, replaced) = keep(graph, store, &job, &made).map_err(Failure::Store)?;
     // From here on another run finds the result in the store.
     drop(job.lock);
     // A measurement comes out otherwise each time, and that is no fault of it.
     let pinned = job.previous.as_ref().filter(|_| !graph.nodes[job.node].node.compute.kind().measurement);
     let differs = pinned.map_or_else(Vec::new, |previous| differing(previous, &record));
-    let exports = job.outgoing.iter().map(|outgoing| bring(graph, store, &record, &product, outgoing)).collect();
+    let exports = job.outgoing.iter().map(|outgoing| bring(graph, store, &record, &made, outgoing)).collect();
     Ok(Done { record, duration, differs, exports, replaced })
 }
 
-/// Reads the inputs of a node, whose logical digests and objects are given in their order, and computes.
+/// What a node made, as files.
+struct Made {
+    files: Vec<MadeFile>,
+    work: Work,
+}
+
+struct MadeFile {
+    name: String,
+    bytes: Arc<Vec<u8>>,
+    logical: Digest,
+}
+
+/// Reads the inputs of a node, whose logical digests and objects are given in their order, computes, and writes what it made as
+/// files. The time is that of computing.
 fn compute(
     graph: &Graph,
     store: &Store,
     node: usize,
     logical: &[Digest],
     objects: &[Digest],
-) -> Result<(Product, Duration), Failure> {
+) -> Result<(Made, Duration), Failure> {
     let placed = &graph.nodes[node];
     let mut inputs = Inputs::default();
     for ((input, object), logical) in placed.node.inputs.iter().zip(objects).zip(logical) {
@@ -90,7 +104,13 @@ fn compute(
     if let Some(twice) = product.artifacts.iter().find(|artifact| !names.insert(&artifact.name)) {
         return Err(Failure::DuplicateArtifact(twice.name.clone()));
     }
-    Ok((product, duration))
+    let made_from = placed.node.made_from();
+    let file = |artifact: &Artifact| {
+        let bytes = artifact.bytes(&made_from).map_err(|error| Failure::Node(error.message))?;
+        Ok(MadeFile { name: artifact.name.clone(), bytes, logical: artifact.logical })
+    };
+    let files = product.artifacts.iter().map(file).collect::<Result<_, Failure>>()?;
+    Ok((Made { files, work: product.work }, duration))
 }
 
 /// Computes a stored node again, storing nothing: the artifacts that come out otherwise, `work` among them.
@@ -103,37 +123,32 @@ pub(super) fn recompute(
     objects: &[Digest],
 ) -> Result<Vec<String>, Failure> {
     let attempt = || {
-        let (product, _) = compute(graph, store, node, logical, objects)?;
-        let outputs = product.artifacts.iter().map(|artifact| Output {
-            name: artifact.name.clone(),
-            object: Digest::of(&artifact.bytes),
-            logical: artifact.logical,
-            size: artifact.bytes.len() as u64,
+        let (made, _) = compute(graph, store, node, logical, objects)?;
+        let outputs = made.files.iter().map(|file| Output {
+            name: file.name.clone(),
+            object: Digest::of(&file.bytes),
+            logical: file.logical,
+            size: file.bytes.len() as u64,
         });
-        Ok(differing(stored, &Record { key: stored.key, outputs: outputs.collect(), work: product.work }))
+        Ok(differing(stored, &Record { key: stored.key, outputs: outputs.collect(), work: made.work }))
     };
     let done = catch_unwind(AssertUnwindSafe(attempt));
     done.unwrap_or_else(|panic| Err(Failure::Panic(words(panic.as_ref()))))
 }
 
-/// Stores a product: objects first, then the record that names them.
-fn keep(
-    graph: &Graph,
-    store: &Store,
-    job: &Job,
-    product: &Product,
-) -> Result<(Record, Vec<(Digest, Fault)>), StoreError> {
-    let mut outputs = Vec::with_capacity(product.artifacts.len());
+/// Stores what was made: objects first, then the record that names them.
+fn keep(graph: &Graph, store: &Store, job: &Job, made: &Made) -> Result<(Record, Vec<(Digest, Fault)>), StoreError> {
+    let mut outputs = Vec::with_capacity(made.files.len());
     let mut replaced = Vec::new();
-    for artifact in &product.artifacts {
-        let (object, put) = store.put(&artifact.bytes)?;
+    for file in &made.files {
+        let (object, put) = store.put(&file.bytes)?;
         if let Put::Replaced(fault) = put {
             replaced.push((object, fault));
         }
-        let size = artifact.bytes.len() as u64;
-        outputs.push(Output { name: artifact.name.clone(), object, logical: artifact.logical, size });
+        let size = file.bytes.len() as u64;
+        outputs.push(Output { name: file.name.clone(), object, logical: file.logical, size });
     }
-    let record = Record { key: job.key, outputs, work: product.work };
+    let record = Record { key: job.key, outputs, work: made.work };
     // A damaged record may be what brought us here: only one that is there, whole and equal, is left alone.
     if store.record(job.key).as_ref() != Ok(&record) {
         store.write_record(&record, &graph.manifest(job.node, &job.logical))?;
@@ -156,17 +171,17 @@ fn bring(
     graph: &Graph,
     store: &Store,
     record: &Record,
-    product: &Product,
+    made: &Made,
     outgoing: &Outgoing,
 ) -> (usize, Option<Digest>, ExportStatus) {
     let export = outgoing.export;
-    let artifact = product.artifacts.iter().find(|artifact| artifact.name == outgoing.artifact);
-    let (Some(output), Some(artifact)) = (record.output(&outgoing.artifact), artifact) else {
+    let file = made.files.iter().find(|file| file.name == outgoing.artifact);
+    let (Some(output), Some(file)) = (record.output(&outgoing.artifact), file) else {
         let failure = no_such_artifact(graph, graph.exports[export].node, record, &outgoing.artifact);
         return (export, None, ExportStatus::NoSuchArtifact(failure));
     };
     let wanted = Wanted { file: outgoing.file.clone(), object: output.object, last: outgoing.last };
-    (export, Some(output.object), exports::bring(store, &wanted, Some(&artifact.bytes)))
+    (export, Some(output.object), exports::bring(store, &wanted, Some(&file.bytes)))
 }
 
 /// The failure of whoever asks for an artifact that a node does not make.

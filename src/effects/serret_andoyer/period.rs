@@ -100,7 +100,7 @@ mod tests {
     fn periods_begin_at_the_equators_limits() {
         let spacing = Spacing { smallest: 1e-8, cusp: 10, tail: 20 };
         let product = Period { body: Body { a: 1.5, b: 2.0, c: 2.8 }, spacing }.run(&Inputs::default()).unwrap();
-        let table = Table::from_parquet(&product.artifacts[0].bytes).unwrap();
+        let table = Table::from_parquet(&product.artifacts[0].bytes(&[]).unwrap()).unwrap();
         let (half, turn) = (table.f64s("half_period").unwrap(), table.f64s("first_return").unwrap());
         let limit = PI * (1.5_f64 / (0.5 * 1.3)).sqrt();
         assert!((half[0] / limit - 1.0).abs() < 1e-14 && (turn[0] / limit / 1.5_f64.sqrt() - 1.0).abs() < 1e-14);

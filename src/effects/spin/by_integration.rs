@@ -176,7 +176,6 @@ mod tests {
     use crate::contract::node::InputFile;
     use crate::effects::spin::conjugate_locus::ConjugateLocus;
     use crate::effects::spin::momenta::Momenta;
-    use std::sync::Arc;
 
     /// Every k of Figs. 5, 7 and 8: no row differs by more than is allowed, and f64 is used where it is enough.
     #[test]
@@ -186,9 +185,9 @@ mod tests {
             let first = ConjugateLocus { k, p_theta: p_theta.into() }.run(&Inputs::default()).unwrap();
             let mut inputs = Inputs::default();
             let artifact = &first.artifacts[0];
-            inputs.insert(INPUT, InputFile { bytes: Arc::new(artifact.bytes.clone()), logical: artifact.logical });
+            inputs.insert(INPUT, InputFile { bytes: artifact.bytes(&[]).unwrap(), logical: artifact.logical });
             let second = ConjugateLocusByIntegration::new(k, Accuracy::Article).run(&inputs).unwrap();
-            let table = Table::from_parquet(&second.artifacts[0].bytes).unwrap();
+            let table = Table::from_parquet(&second.artifacts[0].bytes(&[]).unwrap()).unwrap();
             let column = |name: &str| table.f64s(name).unwrap();
             let long = table.bools("double_double").unwrap().iter().filter(|long| **long).count();
             let largest = |name: &str| column(name).iter().copied().fold(0.0, f64::max);

@@ -75,7 +75,7 @@ mod tests {
     fn each_locus_is_its_branch() {
         let p_theta = Momenta { from: 1e-9, to: 1e4, step: 0.3 };
         let loci = ConjugateLoci { k: vec![0.5, 1.2], p_theta }.run(&Inputs::default()).unwrap();
-        let table = Table::from_parquet(&loci.artifacts[0].bytes).unwrap();
+        let table = Table::from_parquet(&loci.artifacts[0].bytes(&[]).unwrap()).unwrap();
         let (branch, _) = Starts::from(p_theta).branch(1.2).unwrap();
         let k = table.f64s("k").unwrap();
         let first = k.iter().position(|k| *k == 1.2).unwrap();

@@ -159,7 +159,7 @@ mod tests {
 
     fn table(k: f64, p_theta: Starts) -> Table {
         let product = CutLocus { k, p_theta }.run(&Inputs::default()).unwrap();
-        Table::from_parquet(&product.artifacts[0].bytes).unwrap()
+        Table::from_parquet(&product.artifacts[0].bytes(&[]).unwrap()).unwrap()
     }
 
     /// Lemma 4.4: the cut points run over the equator from the far point towards the start, once. The round metric, k = 1: every extremal

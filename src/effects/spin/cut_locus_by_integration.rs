@@ -132,7 +132,6 @@ mod tests {
     use crate::contract::node::InputFile;
     use crate::effects::spin::cut_locus::CutLocus;
     use crate::effects::spin::momenta::Momenta;
-    use std::sync::Arc;
 
     /// No row differs by more than is allowed, for every k of Figs. 5, 7 and 8; the base flow alone is integrated.
     #[test]
@@ -142,10 +141,10 @@ mod tests {
             let first = CutLocus { k, p_theta: p_theta.into() }.run(&Inputs::default()).unwrap();
             let mut inputs = Inputs::default();
             let artifact = &first.artifacts[0];
-            inputs.insert(INPUT, InputFile { bytes: Arc::new(artifact.bytes.clone()), logical: artifact.logical });
+            inputs.insert(INPUT, InputFile { bytes: artifact.bytes(&[]).unwrap(), logical: artifact.logical });
             let second = CutLocusByIntegration::new(k, Accuracy::Article).run(&inputs).unwrap();
             assert_eq!((second.work.tangent_evaluations, second.work.state_dimension), (0, 6));
-            let table = Table::from_parquet(&second.artifacts[0].bytes).unwrap();
+            let table = Table::from_parquet(&second.artifacts[0].bytes(&[]).unwrap()).unwrap();
             let column = |name: &str| table.f64s(name).unwrap();
             let long = table.bools("double_double").unwrap().iter().filter(|long| **long).count();
             let largest = |name: &str| column(name).iter().copied().fold(0.0, f64::max);

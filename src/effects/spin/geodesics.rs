@@ -228,7 +228,7 @@ mod tests {
         for k in [0.1, 0.2, 0.5, 0.8, 1.0, 1.2, 1.4] {
             let geodesics = Geodesics { k, p_theta: p_theta.into(), count: 15, step: 0.1, tolerance: f64::EPSILON };
             let product = geodesics.run(&Inputs::default()).unwrap();
-            let table = Table::from_parquet(&product.artifacts[0].bytes).unwrap();
+            let table = Table::from_parquet(&product.artifacts[0].bytes(&[]).unwrap()).unwrap();
             let largest = table.f64s("difference").unwrap().iter().copied().fold(0.0, f64::max);
             println!("k = {k}: {} rows, {largest:e}", table.rows());
             assert!(largest < 1e-11, "k = {k}: {largest:e}");

@@ -165,7 +165,7 @@ mod tests {
 
     fn table(k: f64, t: f64) -> Table {
         let product = WaveFront { k, t, step: 0.1 }.run(&Inputs::default()).unwrap();
-        Table::from_parquet(&product.artifacts[0].bytes).unwrap()
+        Table::from_parquet(&product.artifacts[0].bytes(&[]).unwrap()).unwrap()
     }
 
     /// The meridian has unit speed; neighbours are near each other; the end is as near to the equator as promised.

@@ -134,7 +134,6 @@ mod tests {
     use crate::contract::code::undeclared;
     use crate::contract::node::InputFile;
     use crate::effects::spin::wave_front::WaveFront;
-    use std::sync::Arc;
 
     #[test]
     fn both_routes_agree_row_by_row() {
@@ -142,10 +141,10 @@ mod tests {
             let first = WaveFront { k, t, step: 0.2 }.run(&Inputs::default()).unwrap();
             let mut inputs = Inputs::default();
             let artifact = &first.artifacts[0];
-            inputs.insert(INPUT, InputFile { bytes: Arc::new(artifact.bytes.clone()), logical: artifact.logical });
+            inputs.insert(INPUT, InputFile { bytes: artifact.bytes(&[]).unwrap(), logical: artifact.logical });
             let second = WaveFrontByIntegration::new(k, t, Accuracy::Article).run(&inputs).unwrap();
             assert_eq!((second.work.tangent_evaluations, second.work.event_evaluations), (0, 0));
-            let table = Table::from_parquet(&second.artifacts[0].bytes).unwrap();
+            let table = Table::from_parquet(&second.artifacts[0].bytes(&[]).unwrap()).unwrap();
             let long = table.bools("double_double").unwrap().iter().filter(|long| **long).count();
             let largest = table.f64s("distance").unwrap().iter().copied().fold(0.0, f64::max);
             println!("k = {k}, t = {t}: {} rows, {long} long, {largest:e}", table.rows());
