@@ -225,12 +225,26 @@ fn what_accuracy_costs() {
     assert!(of(0, "/work/flow_evaluations") < of(1, "/work/flow_evaluations"));
     assert!(of(1, "/tables/relative/largest").is_some_and(|size| size > 0.0 && size < 1e-9), "{found}");
     assert!(of(1, "/picture/mm").is_some_and(|mm| mm < 0.05) && found["unchanged_from"].is_string(), "{found}");
-    assert!(found["draft_faster_than_reference"].as_f64().is_some_and(|times| times > 1.0));
-    assert!(workspace.read("figures/measured/accuracy-spins.svg").contains("work") || ran.err.contains("reference"));
+    assert!(
+        found["faster_than_reference"]["draft"].is_f64() && found["left_out"].as_array().is_some_and(Vec::is_empty)
+    );
+    assert!(workspace.read("figures/measured/accuracy-spins.svg").contains("What accuracy costs in time: spins"));
+    assert!(ran.err.contains("spins at reference"), "{}", ran.err);
     // Nothing else was made or kept.
     assert!(!workspace.path(".polhode").exists() && !workspace.path("figures/spins.svg").exists());
     let text = workspace.line("accuracy spins --levels draft --no-progress").ends(0);
     assert!(text.out.contains("draft") && text.out.contains("times faster") && text.err.is_empty(), "{}", text.out);
     assert!(workspace.line("accuracy nothing").ends(2).err.contains("nothing"));
     assert!(workspace.line("accuracy spins --levels best").ends(2).err.contains("best"));
+}
+
+/// What no level changes has no price: it is refused by itself and left out of the whole, by name.
+#[test]
+fn what_no_level_changes_is_left_out() {
+    let workspace = Workspace::with(&["hard_cases", "remark_3_25"]);
+    let refused = workspace.line("accuracy hard_cases").ends(2);
+    assert!(refused.err.contains("no level of accuracy changes what hard_cases computes"), "{}", refused.err);
+    let whole = workspace.line("accuracy --levels draft --json").ends(0).json();
+    assert_eq!(whole["left_out"].as_array().map(Vec::len), Some(1), "{whole}");
+    assert!(whole["left_out"][0].as_str().is_some_and(|why| why.starts_with("hard_cases ")), "{whole}");
 }

@@ -194,7 +194,7 @@ fn plans(session: &Session) -> Vec<Plan> {
     let mut plans: Vec<Plan> = session.experiments.iter().map(|experiment| experiment.plan.clone()).collect();
     let ids: Vec<&str> = session.experiments.iter().map(|experiment| experiment.plan.id.as_str()).collect();
     plans.push(collected::plan(&ids).expect("a plan"));
-    plans.push(page::plan(&session.experiments).expect("a plan"));
+    plans.push(page::plan(&session.experiments, session.workspace.has_source()).expect("a plan"));
     plans
 }
 

@@ -3,6 +3,7 @@
 #![expect(clippy::panic, reason = "a test that can't read its input fails")]
 
 use polhode::cli::arguments::SCENES;
+use polhode::cli::{collected, page};
 use polhode::contract::code;
 use polhode::contract::node::Kind;
 use polhode::contract::plan::{ConfigSource, Plan};
@@ -68,6 +69,17 @@ fn every_kind_declares_all_the_code_that_it_reaches() {
         }
     }
     assert!(wrong.is_empty(), "code used and not declared:\n{}", wrong.join("\n"));
+}
+
+/// The page and `values.toml` belong to the whole, so no experiment's plan has their kinds; their files plan them too.
+#[test]
+fn what_belongs_to_the_whole_declares_its_code() {
+    let planning = ["cli/workspace.rs", "effects/scene.rs", "effects/spin/", "experiments/", "contract/config"];
+    for kind in [&page::KIND, &collected::KIND] {
+        let missing = code::undeclared(kind).expect("code that exists").into_iter();
+        let missing: Vec<_> = missing.filter(|(_, to)| !planning.iter().any(|prefix| to.starts_with(prefix))).collect();
+        assert!(missing.is_empty(), "{}: used and not declared: {missing:?}", kind.name);
+    }
 }
 
 /// A change to `src/plot` must rerun no integration, and one to numerics must redraw nothing by itself.

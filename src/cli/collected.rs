@@ -13,7 +13,8 @@ pub const ID: &str = "values";
 /// The file.
 pub const VALUES_FILE: &str = "values.toml";
 
-const KIND: Kind = Kind {
+/// The kind.
+pub const KIND: Kind = Kind {
     name: "values",
     summary: "the named values of all experiments",
     code: &["check/values_toml.rs", "cli/collected.rs", "contract/claim.rs", "contract/value.rs"],

@@ -39,7 +39,8 @@ const LOCI_K: (u32, u32, u32) = (100, 1500, 25);
 /// How its branches are sampled: coarser than the figures, since they are drawn small.
 const LOCI_MOMENTA: Momenta = Momenta { from: 1e-9, to: 1e4, step: 0.2 };
 
-const KIND: Kind = Kind {
+/// The kind.
+pub const KIND: Kind = Kind {
     name: "article",
     summary: "the page: figures, statements with verdicts, values, links",
     code: &[

@@ -102,7 +102,7 @@ pub struct Scene<M, S> {
     pub start: S,
     /// The effects called for: nothing else is computed.
     pub effects: Vec<Effect>,
-    /// How accurate results are asked to be: `"draft"` (1e-4), `"article"` (1e-14), or a relative error from 1e-14 to 0.1.
+    /// How accurate results are asked to be: `"draft"` (1e-4), `"article"` (1e-14), `"reference"` (double-double arithmetic, rounded), or a relative error from 1e-28 to 0.1.
     #[serde(default)]
     pub accuracy: Accuracy,
 }
