@@ -130,7 +130,7 @@ impl Reached {
     }
 }
 
-const NAMES: [&str; 38] = [
+const NAMES: [&str; 39] = [
     // Of stored files.
     "missing",
     "altered",

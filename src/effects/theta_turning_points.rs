@@ -3,6 +3,8 @@
 //! All zeros of θ' up to a time, [`crate::geometry::spin::theta`]: crossings of the equator and zeros of `h1 r1/k² + h3
 //! r3`, with θ on its continuous branch and what θ has lost so far. Angles in radians; times in the unit that `H = 1`
 //! fixes.
+//!
+//! Integrated in `f64` at every level: a level tighter than `article` gives the numbers of `article`.
 
 use super::counted::integrated;
 use super::product::{failed, product};

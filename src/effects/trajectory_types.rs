@@ -4,6 +4,9 @@
 //! closed form and by the integration that follows θ up to it, with their relative difference: the second route costs
 //! nothing more here. Next to a vertical tangent of `t1(p_θ)` the closed form's own bound is what is allowed. Angles in
 //! radians; times in the unit that `H = 1` fixes.
+//!
+//! What is found is a type, which signs decide: it is looked for in `f64` at every level, and a level tighter than `article` gives the numbers of
+//! `article`.
 
 use super::counted::integrated;
 use super::product::{failed, product};

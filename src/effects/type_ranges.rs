@@ -4,6 +4,8 @@
 //! bisected in k at the smallest `p_θ` that shows the type on the near side; then all momenta of the grid are examined
 //! just beyond the end found. If one of them still shows the type, the bisection goes on with it. An end that is an end
 //! of the grid is said to be one: the study goes no further.
+//!
+//! Ends of ranges are bisected in `f64` at every level: a level tighter than `article` gives the numbers of `article`.
 
 use super::product::{failed, input_table, product};
 use super::trajectory_types::work_of;

@@ -6,6 +6,8 @@
 //! ≤ θ ≤ π. Points: no side of the polygon is longer than a tenth of a radian in θ or φ, and all marks are among them.
 //! Integrated by power series; the closed form of the same instants is the second route. Angles in radians, θ
 //! continuous; times in the unit that `H = 1` fixes.
+//!
+//! The paths are drawn, and integrated in `f64` at every level: a level tighter than `article` gives the numbers of `article`.
 
 use super::counted::integrated;
 use super::product::{failed, input_table, product};
