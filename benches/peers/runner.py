@@ -7,8 +7,8 @@
 
 A folder of configs is computed once by polhode; its graph (`polhode graph --json`) is then written as build.ninja and Makefile, with a
 file for each node, the same edges, and for each exported file one more target, and built once. Then the three are run in turn with
-nothing to do, as whole processes. What each does in that time differs: ninja and make compare time stamps; polhode reads its configs,
-makes every key and re-hashes every record, object and output. Without --configs: copies of one fast experiment with different
+nothing to do, as whole processes. What each does in that time differs: ninja and make compare time stamps; polhode reads its configs and
+re-hashes every record, object and output; the graph and its keys it remembers, as long as program and configs are the same. Without --configs: copies of one fast experiment with different
 numbers of starts, until there are as many nodes as asked for.
 
 Needs make, and ninja (apt install ninja-build, or pip install ninja); one that is missing is left out, and said.

@@ -52,6 +52,7 @@ pub const KIND: Kind = Kind {
         "contract/value.rs",
         "effects/product.rs",
         "pipeline/diagram.rs",
+        "pipeline/disk.rs",
         "pipeline/graph.rs",
         "pipeline/picture.rs",
         "pipeline/render.rs",
