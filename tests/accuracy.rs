@@ -223,7 +223,7 @@ fn what_accuracy_costs() {
         assert!(of(level, "/work/steps").is_some_and(|steps| steps > 0.0));
     }
     assert!(of(0, "/work/flow_evaluations") < of(1, "/work/flow_evaluations"));
-    assert!(of(1, "/tables/relative/largest").is_some_and(|size| size > 0.0 && size < 1e-9), "{found}");
+    assert!(of(1, "/tables/columns/largest").is_some_and(|size| size > 0.0 && size < 1e-9), "{found}");
     assert!(of(1, "/picture/mm").is_some_and(|mm| mm < 0.05) && found["unchanged_from"].is_string(), "{found}");
     assert!(
         found["faster_than_reference"]["draft"].is_f64() && found["left_out"].as_array().is_some_and(Vec::is_empty)

@@ -4,7 +4,8 @@
 //! was computed, rows may differ: then the table is told as not comparable, never forced. Columns that hold errors and differences are left
 //! out: they say how far results are off, and are no results ([`NO_RESULTS`]).
 //!
-//! A difference is absolute in its column's unit, and relative to the largest number of the reference's column: a coordinate near zero is not wrong by its own size.
+//! A difference of a column is relative to the largest number in the reference's column; of positions (angles, lengths) below one, absolute: a coordinate near
+//! zero is not wrong by its own size, nor is a column of them.
 
 use crate::contract::value::NamedValue;
 use crate::table::{Data, Table};
@@ -23,6 +24,9 @@ pub const NO_RESULTS: [&str; 10] = [
     "k_rest",
     "cusp_theta",
 ];
+
+/// Units of positions.
+const POSITIONS: [&str; 2] = ["rad", "length"];
 
 /// The largest difference, and where it is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -49,10 +53,8 @@ pub struct Differences {
     pub values: Largest,
     /// How many named values were compared.
     pub values_compared: usize,
-    /// Of tables, absolute in the column's unit.
-    pub absolute: Largest,
-    /// Of tables, relative to the largest number of the column.
-    pub relative: Largest,
+    /// Of columns of tables, relative to the column's largest number; of positions, to one at least.
+    pub columns: Largest,
     /// How many tables matched row by row.
     pub tables_compared: usize,
     /// The tables that did not.
@@ -84,12 +86,11 @@ impl Differences {
         self.tables_compared += 1;
         for (own, other) in ours.columns().iter().zip(reference.columns()).filter(|(own, _)| is_result(&own.name)) {
             let (Data::F64(own_numbers), Data::F64(numbers)) = (&own.data, &other.data) else { continue };
-            let scale = numbers.iter().filter(|x| x.is_finite()).fold(0.0_f64, |scale, x| scale.max(x.abs()));
+            let least = if POSITIONS.contains(&other.unit.as_str()) { 1.0 } else { 0.0 };
+            let scale = numbers.iter().filter(|x| x.is_finite()).fold(least, |scale, x| scale.max(x.abs()));
             for (x, y) in own_numbers.iter().zip(numbers).filter(|(x, y)| !(x.is_nan() && y.is_nan())) {
                 let apart = (x - y).abs();
-                let place = || format!("{name}: {}", own.name);
-                self.absolute.take(apart, place);
-                self.relative.take(if apart > 0.0 { apart / scale } else { 0.0 }, place);
+                self.columns.take(if apart > 0.0 { apart / scale } else { 0.0 }, || format!("{name}: {}", own.name));
             }
         }
     }
@@ -128,8 +129,12 @@ mod tests {
         let reference = table(vec![2.0, 4.0], vec![1.0, 1.0], vec![0, 1]);
         let mut differences = Differences::default();
         differences.add_table("a", &table(vec![2.0, 4.5], vec![0.0, 9.0], vec![0, 1]), &reference);
-        assert_eq!((differences.absolute.size, differences.relative.size), (0.5, 0.125));
-        assert_eq!((differences.relative.place.as_str(), differences.tables_compared), ("a: t", 1));
+        assert_eq!(differences.columns.size, 0.125);
+        assert_eq!((differences.columns.place.as_str(), differences.tables_compared), ("a: t", 1));
+        // An angle that is zero but for rounding is right.
+        let angle = |x| Table::builder("points", "test").column("phi", "rad", "φ", vec![x]).build().unwrap();
+        differences.add_table("angles", &angle(1e-16), &angle(-2e-16));
+        assert_eq!(differences.columns.size, 0.125);
         differences.add_table("b", &table(vec![2.0, 4.0], vec![1.0, 1.0], vec![0, 2]), &reference);
         differences.add_table("c", &table(vec![2.0], vec![1.0], vec![0]), &reference);
         assert_eq!(differences.not_comparable, ["b", "c"]);

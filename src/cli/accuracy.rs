@@ -364,7 +364,7 @@ fn as_text(name: &str, measured: &[Measured], machine: &str) -> String {
                 let lost = if moved.unmatched.is_empty() { "" } else { " +" };
                 format!("{:.3}{lost}", moved.mm)
             });
-            [size(&found.differences.values), size(&found.differences.relative), moved]
+            [size(&found.differences.values), size(&found.differences.columns), moved]
         };
         line([
             &found.level.to_string(),
@@ -380,20 +380,18 @@ fn as_text(name: &str, measured: &[Measured], machine: &str) -> String {
     }
     let _ = writeln!(
         text,
-        "\nOff: the largest difference to the reference, of named values relative, of columns of tables relative to their largest number.\n\
+        "\nOff: the largest difference to the reference, of named values relative, of columns of tables relative to their largest number (of positions: absolute below one).\n\
          Moved: the largest distance of what is drawn from the same in the reference's picture; + where a group of marks is in one picture only.\n\
          Closed forms have no tolerance: at all levels but the reference they are evaluated in f64, and what a looser level changes is what is integrated."
     );
     for found in measured.iter().filter(|found| found.level != Accuracy::Reference) {
-        let Differences { values, absolute, relative, not_comparable, tables_compared, .. } = &found.differences;
+        let Differences { values, columns, not_comparable, tables_compared, .. } = &found.differences;
         let _ = writeln!(
             text,
-            "{}: values most in {}; tables most in {} ({} absolute in {}); {tables_compared} tables compared row by row, {} not; moved: {}",
+            "{}: values most in {}; tables most in {}; {tables_compared} tables compared row by row, {} not; moved: {}",
             found.level,
             or_none(&values.place),
-            or_none(&relative.place),
-            size(absolute),
-            or_none(&absolute.place),
+            or_none(&columns.place),
             not_comparable.len(),
             found
                 .moved
@@ -432,8 +430,7 @@ fn as_json(name: &str, measured: &[Measured], machine: &str, left_out: &[String]
     let levels: Vec<Value> = measured
         .iter()
         .map(|found| {
-            let Differences { values, values_compared, absolute, relative, tables_compared, not_comparable } =
-                &found.differences;
+            let Differences { values, values_compared, columns, tables_compared, not_comparable } = &found.differences;
             let picture = found.moved.as_ref().map(|(path, moved)| {
                 let Movement { mm, group, unmatched } = moved;
                 json!({ "path": path, "mm": mm, "group": group, "unmatched": unmatched, "visible": moved.is_visible() })
@@ -448,8 +445,7 @@ fn as_json(name: &str, measured: &[Measured], machine: &str, left_out: &[String]
                 "failed": found.failed,
                 "values": { "relative": largest(values), "compared": values_compared },
                 "tables": {
-                    "absolute": largest(absolute),
-                    "relative": largest(relative),
+                    "columns": largest(columns),
                     "compared": tables_compared,
                     "not_comparable": not_comparable,
                 },

@@ -27,7 +27,7 @@ pub fn picture(name: &str, measured: &[Measured], machine: &str) -> Picture {
     let values: Vec<(f64, f64)> =
         others().map(|found| (found.compute_seconds, drawn(found.differences.values.size))).collect();
     let tables: Vec<(f64, f64)> =
-        others().map(|found| (found.compute_seconds, drawn(found.differences.relative.size))).collect();
+        others().map(|found| (found.compute_seconds, drawn(found.differences.columns.size))).collect();
     let times = decades(measured.iter().map(|found| found.compute_seconds));
     let errors = decades(values.iter().chain(&tables).map(|point| point.1));
     let names = others().map(|found| found.level.to_string());
@@ -45,7 +45,7 @@ pub fn picture(name: &str, measured: &[Measured], machine: &str) -> Picture {
         .caption(format!(
             "Measured on {machine}: time of all compute nodes of {name} at each level, run alone one after another from nothing, against the largest \
              difference of its numbers to those at the level reference (double-double arithmetic, integrations to 1e-28, rounded). Differences of \
-             named values are relative; those of table columns are relative to the column's largest number, for tables that match row by row. A \
+             named values are relative; those of table columns are relative to the column's largest number (of positions: absolute below one), for tables that match row by row. A \
              difference of zero is drawn at 1e-17. Closed forms have no tolerance: at all levels but the reference they are evaluated in f64."
         ))
         .panel(panel)

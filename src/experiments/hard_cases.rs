@@ -362,8 +362,10 @@ fn panel(metric: &str, family: &str, tables: &[&Table], is_first: bool, is_last:
         20
     } else if width > 20.0 {
         8
-    } else {
+    } else if width > 6.0 {
         4
+    } else {
+        2
     };
     let decades = (0..=300).step_by(step).map(|n| {
         let words = if n == 0 { "1".to_owned() } else { format!("10^{{−{n}}}") };
