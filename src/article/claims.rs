@@ -4,7 +4,7 @@
 //! `refused`, a claim of that id also says how it was checked and how many wrong forms of it the same check refused.
 
 use super::content::{Content, Part};
-use super::markup::{escape, row};
+use super::markup::{escape, formulas, row};
 use crate::check::verdict::{Verdict, judge};
 use crate::contract::claim::{Claim, Evidence};
 use std::fmt::Write as _;
@@ -81,19 +81,20 @@ pub fn add(page: &mut String, claims: &[Judged<'_>]) {
     for judged in claims {
         let Judged { part, claim, verdict, evidence } = judged;
         let mut statement =
-            format!("<span id=\"claim-{0}-{1}\">{2}</span>", part.id, claim.id, escape(&claim.statement));
+            format!("<span id=\"claim-{0}-{1}\">{2}</span>", part.id, claim.id, formulas(&claim.statement));
         if let Evidence::Slip { correction, .. } = &claim.evidence {
-            let _ = write!(statement, "<br><em>corrected:</em> {}", escape(correction));
+            let _ = write!(statement, "<br><em>corrected:</em> {}", formulas(correction));
         }
         if let Evidence::OnlyWhen { condition, .. } = &claim.evidence {
-            let _ = write!(statement, "<br><em>when</em> {}", escape(condition));
+            let _ = write!(statement, "<br><em>when</em> {}", formulas(condition));
         }
         if !claim.note.is_empty() {
-            let _ = write!(statement, "<br><small>{}</small>", escape(&claim.note));
+            let _ = write!(statement, "<br><small>{}</small>", formulas(&claim.note));
         }
-        let mut shown = escape(evidence);
+        let mut shown = formulas(evidence);
         if let Some((method, wrong, refused)) = checked(judged) {
-            let _ = write!(shown, "<br><small>{}; wrong forms refused: {refused} of {wrong}</small>", escape(&method));
+            let _ =
+                write!(shown, "<br><small>{}; wrong forms refused: {refused} of {wrong}</small>", formulas(&method));
         }
         let cells = [
             format!("<span class=\"badge {}\">{}</span>", verdict.name(), words(*verdict)),

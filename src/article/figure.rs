@@ -4,7 +4,7 @@
 //! on one page; sizes in millimetres give way to the column's width.
 
 use super::content::{PageError, Part};
-use super::markup::{escape, unescape};
+use super::markup::{escape, formulas, unescape};
 use std::fmt::Write as _;
 
 /// A picture, taken apart.
@@ -76,7 +76,7 @@ pub fn add(page: &mut String, part: &Part) -> Result<(), PageError> {
         escape(title),
         escape(place),
         picture.svg,
-        escape(&picture.caption),
+        formulas(&picture.caption),
     );
     let _ = write!(page, "<p class=\"links\"><a href=\"../{id}.svg\">SVG</a> · <a href=\"pdf/{id}.pdf\">PDF</a>");
     if !part.tables.is_empty() {

@@ -17,6 +17,43 @@ pub fn escape(text: &str) -> String {
     escaped
 }
 
+/// Escaped text with the indices and exponents of its formulas: `p_θ`, `H_2` and `B^(−1/2)` as a reader expects them. Names of more than two letters
+/// (`type_i`) are names.
+pub fn formulas(text: &str) -> String {
+    let escaped = escape(text);
+    let mut shown = String::with_capacity(escaped.len());
+    let mut rest = escaped.as_str();
+    while let Some(at) = rest.find(['_', '^']) {
+        let (before, after) = rest.split_at(at);
+        shown.push_str(before);
+        let (sign, after) = after.split_at(1);
+        let base = before.chars().rev().take_while(|c| c.is_alphabetic() || matches!(c, '_' | '^')).count();
+        let index = after.chars().next().filter(|c| c.is_alphabetic() || c.is_ascii_digit());
+        let is_single = |index: char| {
+            let next = after[index.len_utf8()..].chars().next();
+            next.is_none_or(|c| !(c.is_alphabetic() || c.is_ascii_digit() || c == '_'))
+        };
+        let exponent =
+            after.strip_prefix('(').and_then(|inner| inner.split_once(')')).filter(|(inner, _)| !inner.contains('('));
+        match (sign, index, exponent) {
+            ("_", Some(index), _) if (1..=2).contains(&base) && is_single(index) => {
+                let _ = write!(shown, "<sub>{index}</sub>");
+                rest = &after[index.len_utf8()..];
+            }
+            ("^", _, Some((inner, behind))) => {
+                let _ = write!(shown, "<sup>{inner}</sup>");
+                rest = behind;
+            }
+            _ => {
+                shown.push_str(sign);
+                rest = after;
+            }
+        }
+    }
+    shown.push_str(rest);
+    shown
+}
+
 /// Text that was escaped for XML, read back.
 pub fn unescape(text: &str) -> String {
     text.replace("&lt;", "<").replace("&gt;", ">").replace("&quot;", "\"").replace("&#39;", "'").replace("&amp;", "&")
@@ -83,6 +120,15 @@ mod tests {
         assert_eq!(rough(3.26e-15), "3.3 × 10<sup>−15</sup>");
         assert_eq!(rough(0.4567), "0.46");
         assert_eq!(rough(12.3), "12");
+    }
+
+    #[test]
+    fn formulas_have_indices_and_exponents() {
+        assert_eq!(formulas("p_θ² < B^(−1/2)"), "p<sub>θ</sub>² &lt; B<sup>−1/2</sup>");
+        assert_eq!(formulas("∂H_n, dp_x/dt, p_φ(0)"), "∂H<sub>n</sub>, dp<sub>x</sub>/dt, p<sub>φ</sub>(0)");
+        for name in ["type_i", "p_theta", "k_bar", "remark_3_25", "t_*^1", "f^((a)b)"] {
+            assert_eq!(formulas(name), name);
+        }
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::claims::Judged;
 use super::content::{Content, PageError};
-use super::markup::{escape, number, rough, row};
+use super::markup::{escape, formulas, number, rough, row};
 use crate::contract::claim::{Evidence, Test};
 use std::fmt::Write as _;
 
@@ -41,7 +41,7 @@ pub fn printed_values(page: &mut String, content: &Content, claims: &[Judged<'_>
                 "<a href=\"#claim-{0}-{1}\">{2}</a>",
                 judged.part.id,
                 judged.claim.id,
-                escape(&judged.claim.statement)
+                formulas(&judged.claim.statement)
             ),
             escape(&format!("{printed}")).replace('-', "−"),
             number(*ours),
@@ -63,7 +63,7 @@ pub fn named_values(page: &mut String, content: &Content) {
                 number(value.value),
                 rough(value.error),
                 escape(&value.unit),
-                escape(&value.meaning),
+                formulas(&value.meaning),
             ];
             row(page, "td", &cells);
         }

@@ -86,7 +86,7 @@ impl Differences {
         self.tables_compared += 1;
         for (own, other) in ours.columns().iter().zip(reference.columns()).filter(|(own, _)| is_result(&own.name)) {
             let (Data::F64(own_numbers), Data::F64(numbers)) = (&own.data, &other.data) else { continue };
-            let least = if POSITIONS.contains(&other.unit.as_str()) { 1.0 } else { 0.0 };
+            let least: f64 = if POSITIONS.contains(&other.unit.as_str()) { 1.0 } else { 0.0 };
             let scale = numbers.iter().filter(|x| x.is_finite()).fold(least, |scale, x| scale.max(x.abs()));
             for (x, y) in own_numbers.iter().zip(numbers).filter(|(x, y)| !(x.is_nan() && y.is_nan())) {
                 let apart = (x - y).abs();
