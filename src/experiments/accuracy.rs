@@ -120,11 +120,29 @@ pub const EXPERIMENT: Experiment = Experiment::of::<AccuracyCost>();
 
 const PICTURE: Kind = picture_kind(
     "accuracy-picture",
-    &["experiments/accuracy.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/three_problems.rs", "plot", "table"],
+    &[
+        "experiments/accuracy.rs",
+        "experiments/definition.rs",
+        "experiments/findings.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/three_problems.rs",
+        "plot",
+        "table",
+    ],
 );
 const MEASURED_PICTURE: Kind = picture_kind(
     "accuracy-measured-picture",
-    &["experiments/accuracy.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/three_problems.rs", "plot", "table"],
+    &[
+        "experiments/accuracy.rs",
+        "experiments/definition.rs",
+        "experiments/findings.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/three_problems.rs",
+        "plot",
+        "table",
+    ],
 );
 const FINDINGS: Kind = findings_kind(
     "accuracy-findings",
@@ -373,7 +391,8 @@ struct Errors<'t> {
 
 impl<'t> Errors<'t> {
     fn read(table: &'t Table) -> Result<Self, NodeError> {
-        let (counts, starts) = (table.numbers("multiplications").map_err(unread)?, table.numbers("starts").map_err(unread)?);
+        let (counts, starts) =
+            (table.numbers("multiplications").map_err(unread)?, table.numbers("starts").map_err(unread)?);
         Self::with(table, counts.iter().zip(&starts).map(|(count, starts)| count / starts).collect())
     }
 
@@ -480,7 +499,8 @@ fn work_panel(title: &str, errors: &Errors<'_>, first: bool) -> Panel {
 /// Error proportional to work to a power, over four decades, to the right of the marks of the pair of order 9.
 fn power_guide(errors: &Errors<'_>, beside: f64, power: f64) -> Option<Vec<(f64, f64)>> {
     let from = errors.of(VERNER98).next()?;
-    let through = |decades: f64| (beside * errors.work[from] * libm::pow(10.0, decades / power), libm::pow(10.0, -2.0 - decades));
+    let through =
+        |decades: f64| (beside * errors.work[from] * libm::pow(10.0, decades / power), libm::pow(10.0, -2.0 - decades));
     Some([0.0, 4.0].map(through).to_vec())
 }
 
@@ -501,7 +521,8 @@ fn request_panel(title: &str, errors: &Errors<'_>, first: bool) -> Result<Panel,
     let x = Axis::new("relative error asked for").log().fixed(1e-30, 0.1).ticks_at(eighth_powers(1)).reversed();
     let y = Axis::new("achieved over asked").log().fixed(3e-5, 20.0);
     let equal = DirectLabel::new("as asked").at(At::End).side(Side::AboveLeft);
-    let mut panel = Panel::new(x, y).title(title.to_owned()).mark(RuleLine::horizontal(Role::Reference, 1.0).label(equal));
+    let mut panel =
+        Panel::new(x, y).title(title.to_owned()).mark(RuleLine::horizontal(Role::Reference, 1.0).label(equal));
     if first {
         panel = panel.mark(Text::new((0.05, 9.0), Side::Right, "marks: largest; lines: median"));
     }
@@ -509,7 +530,10 @@ fn request_panel(title: &str, errors: &Errors<'_>, first: bool) -> Result<Panel,
     // Nothing is asked of a closed form.
     for drawn in METHODS.iter().filter(|drawn| drawn.method != CLOSED_FORM) {
         let over = |error: &[f64]| -> Vec<(f64, f64)> {
-            errors.of(drawn.method).map(|row| (errors.asked[row], error[row].max(ERRORS.0) / errors.asked[row])).collect()
+            errors
+                .of(drawn.method)
+                .map(|row| (errors.asked[row], error[row].max(ERRORS.0) / errors.asked[row]))
+                .collect()
         };
         let medians = over(median);
         if medians.is_empty() {
@@ -518,7 +542,8 @@ fn request_panel(title: &str, errors: &Errors<'_>, first: bool) -> Result<Panel,
         if medians.len() > 1 {
             panel = panel.mark(Curve::new(drawn.role, medians));
         }
-        panel = panel.mark(Points { marker: drawn.marker, ..Points::new(drawn.role, over(errors.largest)) }.legend(drawn.words));
+        panel = panel
+            .mark(Points { marker: drawn.marker, ..Points::new(drawn.role, over(errors.largest)) }.legend(drawn.words));
     }
     Ok(panel)
 }
@@ -577,8 +602,10 @@ mod tests {
     #[test]
     fn the_command_lines_accuracy_takes_the_place_of_all() {
         let text = include_str!("../../experiments/accuracy.toml").to_owned();
-        let edited = text.replace("1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, \"article\"", "\"draft\"");
-        let edited = edited.replace("[1e-8, 1e-12, 1e-16, 1e-20, 1e-24, 1e-28]", "[]").replace("count = 24", "count = 3");
+        let edited = text
+            .replace("1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13, \"article\"", "\"draft\"");
+        let edited =
+            edited.replace("[1e-8, 1e-12, 1e-16, 1e-20, 1e-24, 1e-28]", "[]").replace("count = 24", "count = 3");
         // One request: no order, no work between requests, and a picture all the same.
         let preview = preview::run_text(&EXPERIMENT, edited);
         assert!(preview.findings.values.iter().all(|value| !value.name.ends_with("_order")));
@@ -598,7 +625,8 @@ mod tests {
             .replace("directions = 24", "directions = 3")
             .replace("repetitions = 15", "repetitions = 1");
         let source = crate::contract::plan::ConfigSource { file: "f".to_owned(), text: text.clone() };
-        let plan = |measure| EXPERIMENT.plan_requested("accuracy", &source, Request { accuracy: None, measure }).unwrap().plan;
+        let plan =
+            |measure| EXPERIMENT.plan_requested("accuracy", &source, Request { accuracy: None, measure }).unwrap().plan;
         let count = |measure| plan(measure).nodes.iter().filter(|node| node.compute.kind().measurement).count();
         assert_eq!((count(false), count(true)), (0, 3));
         let mut tables = Tables::new();

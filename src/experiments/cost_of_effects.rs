@@ -91,11 +91,29 @@ pub const EXPERIMENT: Experiment = Experiment::of::<Cost>();
 
 const PICTURE: Kind = picture_kind(
     "cost_of_effects-picture",
-    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/three_problems.rs", "plot", "table"],
+    &[
+        "experiments/cost_of_effects.rs",
+        "experiments/definition.rs",
+        "experiments/findings.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/three_problems.rs",
+        "plot",
+        "table",
+    ],
 );
 const MEASURED_PICTURE: Kind = picture_kind(
     "cost_of_effects-measured-picture",
-    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/three_problems.rs", "plot", "table"],
+    &[
+        "experiments/cost_of_effects.rs",
+        "experiments/definition.rs",
+        "experiments/findings.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/three_problems.rs",
+        "plot",
+        "table",
+    ],
 );
 const FINDINGS: Kind = findings_kind(
     "cost_of_effects-findings",
@@ -135,7 +153,13 @@ impl Definition for Cost {
         let spin = CostOfEffects { problem: params.spin(), asked: asked.clone(), samples };
         nodes.add(SPIN, &[], spin, &[], &three_problems::origins(SPIN, SPIN_LEAVES))?;
         let reduced = CostOfEffects { problem: params.serret_andoyer(), asked: asked.clone(), samples };
-        nodes.add(SERRET_ANDOYER, &[], reduced, &[], &three_problems::origins(SERRET_ANDOYER, SERRET_ANDOYER_LEAVES))?;
+        nodes.add(
+            SERRET_ANDOYER,
+            &[],
+            reduced,
+            &[],
+            &three_problems::origins(SERRET_ANDOYER, SERRET_ANDOYER_LEAVES),
+        )?;
         let group = CostOfEffects { problem: params.rotation_group(), asked, samples };
         nodes.add(ROTATION_GROUP, &[], group, &[], &three_problems::origins(ROTATION_GROUP, ROTATION_GROUP_LEAVES))?;
         Ok(())
@@ -189,7 +213,8 @@ impl Definition for Cost {
             }
             let event = counts.row("conjugate", last)?;
             let isolated = counts.of("root_isolations", event)? / counts.of("event_evaluations", event)?;
-            let meaning = format!("{title}: part of the steps on which roots of the event had to be isolated, at {last:e}");
+            let meaning =
+                format!("{title}: part of the steps on which roots of the event had to be isolated, at {last:e}");
             add(format!("{prefix}_isolated"), isolated, meaning);
         }
         Ok(values)
@@ -239,11 +264,7 @@ struct Counts<'t> {
 
 impl<'t> Counts<'t> {
     fn read(table: &'t Table) -> Result<Self, NodeError> {
-        Ok(Self {
-            table,
-            sets: table.texts("effects").map_err(unread)?,
-            asked: table.f64s("asked").map_err(unread)?,
-        })
+        Ok(Self { table, sets: table.texts("effects").map_err(unread)?, asked: table.f64s("asked").map_err(unread)? })
     }
 
     fn last_accuracy(&self) -> f64 {
@@ -399,7 +420,8 @@ fn counted_panel(title: &str, table: &Table, samples: usize, (least, most): (f64
     let beyond = |part: f64| most * libm::pow(most / least, part);
     let decade = |n: i32| (libm::pow(10.0, f64::from(n)), if n == 0 { "1".to_owned() } else { format!("10^{n}") });
     let decades = (0..=9).map(decade).filter(|(at, _)| *at <= most);
-    let x = Axis::new("count per start").log().fixed(least / libm::pow(most / least, 0.06), beyond(0.66)).ticks_at(decades);
+    let x =
+        Axis::new("count per start").log().fixed(least / libm::pow(most / least, 0.06), beyond(0.66)).ticks_at(decades);
     let y = rows_axis(&rows, -1.3);
     let mut panel = Panel::new(x, y).title(title.to_owned());
     for (i, (set, _)) in rows.iter().enumerate() {
@@ -422,13 +444,17 @@ fn counted_panel(title: &str, table: &Table, samples: usize, (least, most): (f64
         let row = counts.row(set, last)?;
         let ratio = counts.of("multiplications", row)? / counts.of("multiplications", base)?;
         let dimension = counts.of("state_dimension", row)?;
-        panel = panel
-            .mark(Text::new((beyond(0.24), i as f64), Side::Left, format!("{dimension}")))
-            .mark(Text::new((beyond(0.65), i as f64), Side::Left, format!("{ratio:.2}")));
+        panel = panel.mark(Text::new((beyond(0.24), i as f64), Side::Left, format!("{dimension}"))).mark(Text::new(
+            (beyond(0.65), i as f64),
+            Side::Left,
+            format!("{ratio:.2}"),
+        ));
     }
-    Ok(panel
-        .mark(Text::new((beyond(0.24), -0.9), Side::Left, "*n*"))
-        .mark(Text::new((beyond(0.65), -0.9), Side::Left, "mult.")))
+    Ok(panel.mark(Text::new((beyond(0.24), -0.9), Side::Left, "*n*")).mark(Text::new(
+        (beyond(0.65), -0.9),
+        Side::Left,
+        "mult.",
+    )))
 }
 
 fn measurements(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
@@ -520,7 +546,9 @@ mod tests {
         let (sets, roots) = (counts.texts("effects").unwrap(), counts.ints("roots_found").unwrap());
         assert!(sets.iter().zip(roots).all(|(set, roots)| *roots == if set == "conjugate" { 40 } else { 0 }));
         // Seven products against thirteen and nineteen (`geometry::spin::lift`): with all else between these and one column for three.
-        for (name, least, most) in [("spin_one_column", 1.5, 13.0 / 7.0 + 0.2), ("spin_two_columns", 2.2, 19.0 / 7.0 + 0.3)] {
+        for (name, least, most) in
+            [("spin_one_column", 1.5, 13.0 / 7.0 + 0.2), ("spin_two_columns", 2.2, 19.0 / 7.0 + 0.3)]
+        {
             let ratio = preview.value(name);
             assert!(ratio > least && ratio < most, "{name}: {ratio}");
         }

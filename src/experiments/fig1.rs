@@ -10,14 +10,14 @@
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::findings::{quantities, unread};
 use super::nodes::Nodes;
-use super::scenes::more::Asked;
 use super::scenes::curvature::curvature_panel;
+use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, FanStart, Inertia, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
+use crate::effects::scene::{Effect, FanStart, Inertia, SERRET_ANDOYER, Scene, SerretAndoyerMetric};
 use crate::effects::serret_andoyer::curvature::Curvature;
 use crate::effects::serret_andoyer::curvature_profile::CurvatureProfile;
 use crate::effects::serret_andoyer::geodesics::{self, Geodesics};
@@ -77,8 +77,31 @@ const OWN: [Effect; 2] = [Effect::Curvature, Effect::Geodesics];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig1>();
 
-const PICTURE: Kind = picture_kind("fig1-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig1.rs", "experiments/findings.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig1-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig1.rs", "experiments/findings.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig1-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/fig1.rs",
+        "experiments/findings.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "fig1-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/fig1.rs",
+        "experiments/findings.rs",
+        "table",
+    ],
+);
 
 struct Fig1;
 
@@ -100,7 +123,12 @@ impl Definition for Fig1 {
     }
 
     fn asked(params: &Params) -> Asked {
-        Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0.into()), Some(&params.scene.start.p_theta))
+        Asked::serret_andoyer(
+            &params.scene,
+            &OWN,
+            Some(&params.scene.start.phi0.into()),
+            Some(&params.scene.start.p_theta),
+        )
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
@@ -303,8 +331,7 @@ fn edge_evidence(params: &Params, own: &Table, other: &Table) -> Result<Evidence
     let mut sides = [(0, 0, String::new()), (0, 0, String::new())];
     for (Inertia { a, b, c }, profile) in bodies {
         let value = |name: &str| profile.lookup("quantity", name, "value").map_err(unread);
-        let (edge, least) =
-            (value("curvature_by_differences_at_edge")?, value("curvature_by_differences_at_minimum")?);
+        let (edge, least) = (value("curvature_by_differences_at_edge")?, value("curvature_by_differences_at_minimum")?);
         // The minimum at the edge itself: no local maximum there. Differences are good to 1e-15.
         let is_maximum = edge > least + 1e-14;
         let side = &mut sides[usize::from(b * (a + c) <= 2.0 * a * c)];
@@ -373,9 +400,7 @@ fn extremals_panel(params: &Params, table: &Table, profile: Option<&Table>) -> R
         }
         first = last;
     }
-    Ok(panel.mark(
-        Points::new(Role::Start, vec![(0.0, params.scene.start.phi0)]).legend("start"),
-    ))
+    Ok(panel.mark(Points::new(Role::Start, vec![(0.0, params.scene.start.phi0)]).legend("start")))
 }
 
 #[cfg(test)]

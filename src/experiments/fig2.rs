@@ -16,7 +16,7 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, Phi0Family, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
+use crate::effects::scene::{Effect, Inertia, Phi0Family, SERRET_ANDOYER, Scene, SerretAndoyerMetric};
 use crate::effects::serret_andoyer::geodesics::{EQUATOR, OSCILLATING, SEPARATRIX};
 use crate::effects::serret_andoyer::potential::{FAMILY, Potential, START};
 use crate::plot::picture::{Picture, Width};
@@ -59,8 +59,31 @@ const OWN: [Effect; 1] = [Effect::Potential];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig2>();
 
-const PICTURE: Kind = picture_kind("fig2-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig2.rs", "experiments/findings.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig2-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig2.rs", "experiments/findings.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig2-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/fig2.rs",
+        "experiments/findings.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "fig2-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/fig2.rs",
+        "experiments/findings.rs",
+        "table",
+    ],
+);
 
 struct Fig2;
 
@@ -82,7 +105,12 @@ impl Definition for Fig2 {
     }
 
     fn asked(params: &Params) -> Asked {
-        Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0.into()), Some(&params.scene.start.p_theta))
+        Asked::serret_andoyer(
+            &params.scene,
+            &OWN,
+            Some(&params.scene.start.phi0.into()),
+            Some(&params.scene.start.p_theta),
+        )
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
@@ -161,10 +189,8 @@ impl Definition for Fig2 {
         }
         let (low, high) = (value("p_theta_separatrix")?, value("p_theta_start")?);
         let family: Vec<&Member> = members.iter().filter(|m| m.curve == FAMILY || m.curve == START).collect();
-        let wrong: Vec<&&Member> = family
-            .iter()
-            .filter(|m| (m.class == OSCILLATING) != (m.p_theta > low && m.p_theta <= high))
-            .collect();
+        let wrong: Vec<&&Member> =
+            family.iter().filter(|m| (m.class == OSCILLATING) != (m.p_theta > low && m.p_theta <= high)).collect();
         let claim = |id: &str, statement: &str, test: Test| Claim {
             id: id.to_owned(),
             place: "section 3.3.3, before Figure 2".to_owned(),

@@ -11,15 +11,15 @@
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::findings::{largest_route_difference, routes_agree, unread};
 use super::nodes::Nodes;
-use super::scenes::more::Asked;
 use super::scenes::curves::{curves, minus, mirrored};
+use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::sweep::Sweep;
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, Phi0Start, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
+use crate::effects::scene::{Effect, Inertia, Phi0Start, SERRET_ANDOYER, Scene, SerretAndoyerMetric};
 use crate::effects::serret_andoyer::by_integration::{self, ConjugatePointsByIntegration};
 use crate::effects::serret_andoyer::conjugate_locus::{ConjugateLocus, Spacing};
 use crate::effects::serret_andoyer::cut_locus::CutLocus;
@@ -127,8 +127,31 @@ const OWN: [Effect; 4] = [Effect::ConjugateLocus, Effect::CutLocus, Effect::Wave
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig3>();
 
-const PICTURE: Kind = picture_kind("fig3-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig3.rs", "experiments/findings.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig3-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig3.rs", "experiments/findings.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig3-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/fig3.rs",
+        "experiments/findings.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "fig3-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/fig3.rs",
+        "experiments/findings.rs",
+        "table",
+    ],
+);
 
 struct Fig3;
 
@@ -214,7 +237,8 @@ impl Definition for Fig3 {
         let fronts = params.scene.asks_for(Effect::WaveFront);
         let strip = STRIP_MM * rows;
         let height = strip + if fronts { WHOLE_MM } else { 0.0 };
-        let mut picture = Picture::new(Width::Double, height + LEGEND_MM, "Conjugate and cut loci of the Serret-Andoyer metric");
+        let mut picture =
+            Picture::new(Width::Double, height + LEGEND_MM, "Conjugate and cut loci of the Serret-Andoyer metric");
         let mut cells = Vec::new();
         for (i, phi0) in starts.iter().enumerate() {
             let top = STRIP_MM * i as f64 / height;
@@ -260,7 +284,10 @@ impl Definition for Fig3 {
             if params.scene.asks_for(Effect::WaveFront) {
                 let crossings = first_crossings(params, tables, phi0)?;
                 let worst = crossings.iter().map(|c| c.distance).fold(0.0, f64::max);
-                let meaning = format!("largest distance of a front's first self-crossing from the cut ray, {} fronts", crossings.len());
+                let meaning = format!(
+                    "largest distance of a front's first self-crossing from the cut ray, {} fronts",
+                    crossings.len()
+                );
                 add("largest_crossing_distance", worst, CROSSING_ERROR, "1", &meaning, "Newton's method on the front");
             }
         }
@@ -436,9 +463,8 @@ fn strip_panel(params: &Params, tables: &Tables, phi0: f64) -> Result<Panel, Nod
 /// One start: the whole fronts, far beyond the strip.
 fn whole_panel(params: &Params, tables: &Tables, phi0: f64) -> Result<Panel, NodeError> {
     let half_width = params.scene.metric.half_width();
-    let mut panel =
-        Panel::new(Axis::new("*θ*").unit("rad").pi_ticks(), Axis::new("*φ*").unit("length"))
-            .title(format!("whole fronts, *φ*_0 = {}", minus(phi0)));
+    let mut panel = Panel::new(Axis::new("*θ*").unit("rad").pi_ticks(), Axis::new("*φ*").unit("length"))
+        .title(format!("whole fronts, *φ*_0 = {}", minus(phi0)));
     for edge in [-half_width, half_width] {
         panel = panel.mark(RuleLine::horizontal(Role::Reference, edge));
     }
@@ -462,15 +488,15 @@ fn with_fronts(
         let table = tables.get(&front_name("wave-front", phi0, *t)).map_err(unread)?;
         let (theta, phi) = (table.f64s("theta").map_err(unread)?, table.f64s("phi").map_err(unread)?);
         let points = theta.iter().copied().zip(phi.iter().copied()).collect();
-        let mut curve = Curve::new(Role::WaveFront, points).tone(LIGHTEST * i as f64 / last).legend(format!("front, *t* = {t}"));
+        let mut curve =
+            Curve::new(Role::WaveFront, points).tone(LIGHTEST * i as f64 / last).legend(format!("front, *t* = {t}"));
         if labels {
             curve = curve.label(DirectLabel::new(format!("*t* = {t}")).at(At::Fraction(0.03)).side(Side::Above));
         }
         panel = panel.mark(curve);
     }
     let crossings = first_crossings(params, tables, phi0)?;
-    let points: Vec<(f64, f64)> =
-        crossings.iter().flat_map(|c| [(c.theta, c.phi), (-c.theta, c.phi)]).collect();
+    let points: Vec<(f64, f64)> = crossings.iter().flat_map(|c| [(c.theta, c.phi), (-c.theta, c.phi)]).collect();
     if !points.is_empty() {
         panel = panel.mark(Points::new(Role::SelfIntersection, points).legend("self-crossings of the fronts"));
     }
@@ -690,7 +716,9 @@ fn crossing_claim(params: &Params, tables: &Tables) -> Result<Claim, NodeError> 
         "Corollary 3.3 ii; section 3.3.3",
         "A wave front first crosses itself on the cut ray: both extremals have the same p_θ and meet at (Δθ(p_θ), −φ0) at t = T(p_θ)/2.",
         evidence,
-        &format!("{count} crossings; the largest of distance from the ray, difference in p_θ and relative difference to T/2."),
+        &format!(
+            "{count} crossings; the largest of distance from the ray, difference in p_θ and relative difference to T/2."
+        ),
     ))
 }
 

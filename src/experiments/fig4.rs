@@ -20,7 +20,7 @@ use crate::contract::value::NamedValue;
 use crate::effects::arithmetic::step_error;
 use crate::effects::conjugate_point_versus_k::{self, ConjugatePointVersusK};
 use crate::effects::conjugate_point_versus_k_by_integration::{self, ConjugatePointVersusKByIntegration};
-use crate::effects::scene::{Effect, EquatorStart, Scene, SpinMetric, SPIN};
+use crate::effects::scene::{Effect, EquatorStart, SPIN, Scene, SpinMetric};
 use crate::effects::switch_points::{POLE, SwitchPoints};
 use crate::effects::switch_points_by_integration::{self, SwitchPointsByIntegration};
 use crate::plot::axis::Axis;
@@ -72,8 +72,31 @@ const OWN: [Effect; 2] = [Effect::ConjugateLocus, Effect::SwitchPoints];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig4>();
 
-const PICTURE: Kind = picture_kind("fig4-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/fig4.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig4-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/fig4.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig4-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/fig4.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "fig4-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/fig4.rs",
+        "table",
+    ],
+);
 const CURVE: &str = "conjugate-point-versus-k";
 const CURVE_CHECK: &str = "conjugate-point-versus-k-by-integration";
 const SWITCHES: &str = "switch-points";
@@ -124,7 +147,13 @@ impl Definition for Fig4 {
                 let first = SwitchPoints { p_theta: value, k_low, k_high };
                 let first = nodes.add(SWITCHES, &axis, first, &[], &origins)?;
                 let input = [(switch_points_by_integration::INPUT, &first)];
-                nodes.add(SWITCHES_CHECK, &axis, SwitchPointsByIntegration::new(scene.accuracy), &input, &[("asked", "scene.accuracy".to_owned())])?;
+                nodes.add(
+                    SWITCHES_CHECK,
+                    &axis,
+                    SwitchPointsByIntegration::new(scene.accuracy),
+                    &input,
+                    &[("asked", "scene.accuracy".to_owned())],
+                )?;
                 switches.get_or_insert(first);
             }
         }
@@ -175,9 +204,8 @@ impl Definition for Fig4 {
                 said.push_str(&format!(" {} = {:.6},", switch.plain(), switch.k));
             }
         }
-        let mut caption = format!(
-            "Spin problem, start on the equator with p_φ = −2, p_θ = {p_theta:?}, H = 1 (section 5.2.1)."
-        );
+        let mut caption =
+            format!("Spin problem, start on the equator with p_φ = −2, p_θ = {p_theta:?}, H = 1 (section 5.2.1).");
         if rows > 0 {
             caption.push_str(&format!(
                 " θ (dashed) and φ (continuous, from the pole) of the first conjugate point as functions of k: {rows} \

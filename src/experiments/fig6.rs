@@ -19,7 +19,7 @@ use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
 use crate::effects::arithmetic::short_step_error;
-use crate::effects::scene::{Effect, EquatorStarts, Scene, SpinMetric, SPIN};
+use crate::effects::scene::{Effect, EquatorStarts, SPIN, Scene, SpinMetric};
 use crate::effects::switch_points::{EQUATOR, POLE, SwitchPoints};
 use crate::effects::theta_turning_points::ThetaTurningPoints;
 use crate::effects::trajectory_types::TrajectoryTypes;
@@ -82,9 +82,8 @@ impl Validate for Params {
         let Types { decrease_tolerance, smallest_p_theta, switch_points_to } = self.types;
         let right = decrease_tolerance > 0.0 && decrease_tolerance < PI;
         Invalid::number(right, "types.decrease_tolerance", decrease_tolerance, "an angle above 0, below π")?;
-        let positive = |key: &str, value: f64| {
-            Invalid::number(value > 0.0 && value.is_finite(), key, value, "a number above 0")
-        };
+        let positive =
+            |key: &str, value: f64| Invalid::number(value > 0.0 && value.is_finite(), key, value, "a number above 0");
         positive("types.smallest_p_theta", smallest_p_theta)?;
         let right = switch_points_to > values[0] && switch_points_to.is_finite();
         Invalid::number(right, "types.switch_points_to", switch_points_to, "a number above the grid's smallest k")?;
@@ -100,8 +99,31 @@ const OWN: [Effect; 2] = [Effect::TrajectoryTypes, Effect::Geodesics];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig6>();
 
-const PICTURE: Kind = picture_kind("fig6-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/fig6.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig6-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/fig6.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig6-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/fig6.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "fig6-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/fig6.rs",
+        "table",
+    ],
+);
 const GRID: &str = "trajectory-types";
 const RANGES: &str = "type-ranges";
 const SWITCHES: &str = "switch-points";
@@ -145,8 +167,7 @@ impl Definition for Fig6 {
         let accuracy = short_step_error(params.scene.accuracy);
         let k = params.scene.metric.spin.k.clone();
         let key = |key: &str| key.to_owned();
-        let tolerances =
-            [("decrease_tolerance", key("types.decrease_tolerance")), ("accuracy", key("scene.accuracy"))];
+        let tolerances = [("decrease_tolerance", key("types.decrease_tolerance")), ("accuracy", key("scene.accuracy"))];
         let mut origins = tolerances.to_vec();
         origins.push(("k", key("scene.metric.spin.k")));
         origins.push(("p_theta", key("scene.start.p_theta")));

@@ -19,7 +19,7 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{BranchStart, Effect, Scene, SpinMetric, SPIN};
+use crate::effects::scene::{BranchStart, Effect, SPIN, Scene, SpinMetric};
 use crate::plot::mark::{SphereCurve, SpherePoints};
 use crate::plot::picture::{Panel, Picture, View, Width};
 use crate::plot::role::Role;
@@ -73,11 +73,33 @@ const OWN: [Effect; 1] = [Effect::ConjugateLocus];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig8>();
 
-const PICTURE: Kind =
-    picture_kind("fig8-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig8.rs", "experiments/spin_branches.rs", "plot", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig8-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/findings.rs",
+        "experiments/fig8.rs",
+        "experiments/spin_branches.rs",
+        "plot",
+        "table",
+    ],
+);
 const FINDINGS: Kind = findings_kind(
     "fig8-findings",
-    &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig8.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"],
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "effects/spin/contact.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/findings.rs",
+        "experiments/fig8.rs",
+        "experiments/spin_branches.rs",
+        "geometry/spin",
+        "numerics",
+        "table",
+    ],
 );
 
 struct Fig8;
@@ -102,11 +124,13 @@ fn sphere(tables: &Tables, shown: &Sphere) -> Result<Panel, NodeError> {
         let [r1, r2, r3] = branch.r;
         let cusp = SpherePoints::new(Role::CuspPoint, vec![[r1[0], r3[0], r2[0]]]);
         panel = panel.mark(cusp.labels([format!("*k* = {k}")]).legend("cusp, *p*_θ = 0"));
-        let places: Vec<[f64; 3]> =
-            double_points(tables, *k)?.iter().flat_map(|point| {
+        let places: Vec<[f64; 3]> = double_points(tables, *k)?
+            .iter()
+            .flat_map(|point| {
                 let [x, y, z] = point.on_sphere;
                 [[x, y, z], [x, -y, z]]
-            }).collect();
+            })
+            .collect();
         if !places.is_empty() {
             panel = panel.mark(SpherePoints::new(Role::SelfIntersection, places).legend("double point"));
         }
@@ -177,8 +201,10 @@ impl Definition for Fig8 {
     }
 
     fn picture(params: &Params, tables: &Tables) -> Result<Picture, NodeError> {
-        let counts: Vec<String> =
-            branches(params, tables)?.iter().map(|branch| format!("{} for k = {}", branch.p_theta.len(), branch.k)).collect();
+        let counts: Vec<String> = branches(params, tables)?
+            .iter()
+            .map(|branch| format!("{} for k = {}", branch.p_theta.len(), branch.k))
+            .collect();
         let views: Vec<String> =
             params.panels.iter().map(|panel| format!("({}°, {}°)", panel.longitude, panel.latitude)).collect();
         let (width, height) = match params.panels.len() {
@@ -229,7 +255,10 @@ impl Definition for Fig8 {
         let mut loops = Vec::new();
         for branch in branches.iter().filter(|branch| branch.k <= switches.k3) {
             let count = double_points(tables, branch.k)?.len();
-            loops.push(((count > 0) == (branch.k > switches.k_bar), format!("k = {:?}: {count} double points", branch.k)));
+            loops.push((
+                (count > 0) == (branch.k > switches.k_bar),
+                format!("k = {:?}: {count} double points", branch.k),
+            ));
         }
         let mut claims = Vec::new();
         if branches.iter().any(|branch| branch.k < 1.0) {
@@ -263,16 +292,23 @@ impl Definition for Fig8 {
 
 #[cfg(test)]
 mod tests {
-    use crate::experiments::spin_branches::tests::{assert_claims, assert_references};
     use super::*;
     use crate::experiments::preview;
+    use crate::experiments::spin_branches::tests::{assert_claims, assert_references};
 
     /// Oracle: mpmath, tests/oracle/values.toml.
     #[test]
     fn values_and_claims() {
         let preview = preview::run(&EXPERIMENT, |text| text);
         assert_references(EXPERIMENT.kind, &preview);
-        let claims = ["cusp_stays_beyond_equator", "pole_then_equator", "first_pole", "self_intersections", "contact_of_order_two", "routes_agree"];
+        let claims = [
+            "cusp_stays_beyond_equator",
+            "pole_then_equator",
+            "first_pole",
+            "self_intersections",
+            "contact_of_order_two",
+            "routes_agree",
+        ];
         assert_claims(&preview, &claims);
     }
 }

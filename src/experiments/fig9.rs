@@ -28,7 +28,7 @@ use crate::effects::rotation_group::projected_path::ProjectedPath;
 use crate::effects::rotation_group::projection::{self, Projection};
 use crate::effects::rotation_group::start::{LevelStart, MomentumStart, ReducedStart, allowed, tolerance};
 use crate::effects::rotation_group::start_of_conjugate_time::StartOfConjugateTime;
-use crate::effects::scene::{Effect, EulerCase, EulerCases, Inertia, RotationGroupMetric, Scene, ROTATION_GROUP};
+use crate::effects::scene::{Effect, EulerCase, EulerCases, Inertia, ROTATION_GROUP, RotationGroupMetric, Scene};
 use crate::plot::axis::Axis;
 use crate::plot::mark::{Curve, Points};
 use crate::plot::picture::{Cell, Layout, Legend, Panel, Picture, Width};
@@ -114,7 +114,15 @@ pub const EXPERIMENT: Experiment = Experiment::of::<Fig9>();
 
 const PICTURE: Kind = picture_kind(
     "fig9-picture",
-    &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/fig9.rs", "plot", "table"],
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/fig9.rs",
+        "plot",
+        "table",
+    ],
 );
 const FINDINGS: Kind = findings_kind(
     "fig9-findings",
@@ -122,7 +130,8 @@ const FINDINGS: Kind = findings_kind(
         "contract/claim.rs",
         "contract/value.rs",
         "experiments/definition.rs",
-        "experiments/scenes", "experiments/spin_branches.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
         "experiments/findings.rs",
         "experiments/fig9.rs",
         "table",
@@ -273,7 +282,13 @@ impl Definition for Fig9 {
             let more = more.map(|leaf| {
                 (leaf, if leaf == "start" { "projection".to_owned() } else { format!("projection.{leaf}") })
             });
-            nodes.add(PATH, &[], ProjectedPath { body, start: Projected::Given(start), t_end, points }, &[], &with(&more))?;
+            nodes.add(
+                PATH,
+                &[],
+                ProjectedPath { body, start: Projected::Given(start), t_end, points },
+                &[],
+                &with(&more),
+            )?;
         }
         if asks(Effect::ConjugateTimes) && asks(Effect::Projection) {
             let level = MomentumStart::Level(LevelStart { cosine_squared, p_x, h });
@@ -337,9 +352,10 @@ impl Definition for Fig9 {
             ));
         }
         let (height, cells) = cells(above.len(), below.len());
-        let mut picture = Picture::new(Width::Double, height, "Extremals on SO(3), their conjugate points and their projection")
-            .layout(Layout::Cells(cells))
-            .caption(caption);
+        let mut picture =
+            Picture::new(Width::Double, height, "Extremals on SO(3), their conjugate points and their projection")
+                .layout(Layout::Cells(cells))
+                .caption(caption);
         picture.panels = above.into_iter().chain(below).collect();
         Ok(picture)
     }
@@ -482,7 +498,13 @@ fn time_values(params: &Params, tables: &Tables, values: &mut Vec<NamedValue>) -
         let (h, g) = (of("h")?, of("G")?);
         let from = "the momentum in the body";
         values.push(value(&format!("h_{name}"), (h, rounding * h), "energy", &format!("energy of {what}"), from));
-        values.push(value(&format!("G_{name}"), (g, rounding * g), "momentum", &format!("size of the momentum of {what}"), from));
+        values.push(value(
+            &format!("G_{name}"),
+            (g, rounding * g),
+            "momentum",
+            &format!("size of the momentum of {what}"),
+            from,
+        ));
         Ok(())
     };
     for i in 0..params.scene.start.cases.len() {
@@ -491,7 +513,11 @@ fn time_values(params: &Params, tables: &Tables, values: &mut Vec<NamedValue>) -
     let level = format!("{TIMES}/case={LEVEL}");
     if tables.get(&level).is_ok() {
         let Reduced { h, .. } = params.projection;
-        times(&level, LEVEL, &format!("the start that projects to p_x, cos²y of the curve on the level h = {h} exactly"))?;
+        times(
+            &level,
+            LEVEL,
+            &format!("the start that projects to p_x, cos²y of the curve on the level h = {h} exactly"),
+        )?;
     }
     for (i, case) in params.scene.start.cases.iter().enumerate() {
         let Some(known) = printed(params, case) else { continue };
@@ -518,7 +544,13 @@ fn projection_values(params: &Params, tables: &Tables, values: &mut Vec<NamedVal
     }
     let h = read(tables, &given(POINT), "h")?;
     let rounding = 8.0 * f64::EPSILON * h;
-    values.push(value("h_projected", (h, rounding), "energy", "energy of the reduced extremal as given", "the Hamiltonian of (9)"));
+    values.push(value(
+        "h_projected",
+        (h, rounding),
+        "energy",
+        "energy of the reduced extremal as given",
+        "the Hamiltonian of (9)",
+    ));
     if params.scene.asks_for(Effect::Attitude) {
         let measured = transformation_error(params, tables)?;
         let meaning = "largest difference between an extremal on SO(3) transformed by section 2.4 and the reduced extremal, \
@@ -541,11 +573,7 @@ fn over_projections(params: &Params, tables: &Tables, columns: &[&str]) -> Resul
 }
 
 fn transformation_error(params: &Params, tables: &Tables) -> Result<f64, NodeError> {
-    over_projections(
-        params,
-        tables,
-        &["angle_difference", "momentum_difference", "constants_difference", "round_trip"],
-    )
+    over_projections(params, tables, &["angle_difference", "momentum_difference", "constants_difference", "round_trip"])
 }
 
 /// The tables of second routes that there are.
@@ -583,7 +611,8 @@ fn time_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) -> Res
         let (number, (printed, half)) = (i + 1, known.tau);
         let ours = read(tables, &of_case(TIMES, i), "t1")?;
         let change = read(tables, &of_case(NEEDED_START, i), "change")?;
-        let test = Test::Equal { printed, ours, tolerance: half, reason: "half a unit of the last printed digit".into() };
+        let test =
+            Test::Equal { printed, ours, tolerance: half, reason: "half a unit of the last printed digit".into() };
         let note = format!(
             "Off by {:.1e}; two routes that share no equation agree on ours to rounding. Φ2 larger by {change:.1e} would give it; a change of \
              the time's scale would have to be one of {:.1e}, and √h is 1 + 3e-6 at most.",
@@ -597,7 +626,8 @@ fn time_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) -> Res
             tolerance: known.phi2,
             reason: "half a unit of the last printed digit of Φ2; those of Φ3 and p3 move τ by 3e-6 at most".into(),
         };
-        let statement = format!("The printed τ of case {number} belongs to a start that is printed with the same digits of Φ2.");
+        let statement =
+            format!("The printed τ of case {number} belongs to a start that is printed with the same digits of Φ2.");
         let note = if test.holds() {
             "So the rounding of Φ2 = 2.327 could explain this τ; but the projected curve, p1 = 0.55 and h = 1 give Φ2 = 2.3270002, with \
              our τ."

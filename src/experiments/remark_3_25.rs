@@ -16,14 +16,14 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, Phi0Start, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
+use crate::effects::scene::{Effect, Inertia, Phi0Start, SERRET_ANDOYER, Scene, SerretAndoyerMetric};
 use crate::effects::serret_andoyer::by_integration::{self, ConjugatePointsByIntegration};
 use crate::effects::serret_andoyer::cusp_limit::{self, CuspLimit};
 use crate::effects::serret_andoyer::cusps::Cusps;
 use crate::effects::serret_andoyer::equator_limits::EquatorConjugatePoint;
 use crate::plot::axis::Axis;
-use crate::plot::mark::{At, Curve, Points, RuleLine, Side};
 use crate::plot::mark::DirectLabel;
+use crate::plot::mark::{At, Curve, Points, RuleLine, Side};
 use crate::plot::picture::{Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::Tables;
@@ -58,7 +58,8 @@ impl Validate for Params {
         Invalid::unless((2..=30).contains(&starts.len()), "limit.phi0", format!("{starts:?}"), "2 to 30 numbers")?;
         let mut before = half_width;
         for (i, phi0) in starts.iter().enumerate() {
-            let accepted = format!("a number in (0, {before:.6}): each at most 3/4 of the one before, all < K(k)/alpha");
+            let accepted =
+                format!("a number in (0, {before:.6}): each at most 3/4 of the one before, all < K(k)/alpha");
             Invalid::number(*phi0 > 0.0 && *phi0 < before, format!("limit.phi0[{i}]"), *phi0, accepted)?;
             before = 0.75 * phi0;
         }
@@ -72,9 +73,31 @@ const OWN: [Effect; 1] = [Effect::ConjugateLocus];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Remark>();
 
-const PICTURE: Kind = picture_kind("remark_3_25-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/remark_3_25.rs", "plot", "table"]);
-const FINDINGS: Kind =
-    findings_kind("remark_3_25-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/remark_3_25.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "remark_3_25-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/remark_3_25.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "remark_3_25-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/remark_3_25.rs",
+        "table",
+    ],
+);
 
 struct Remark;
 
@@ -142,7 +165,10 @@ impl Definition for Remark {
         };
         let axis = || Axis::new("*φ*_0").unit("length");
         let times = Panel::new(axis(), Axis::new("first conjugate time *t*_1").unit("length"))
-            .mark(Curve::new(Role::ConjugateTime, points(t1)).label(DirectLabel::new("cusp, *T*/2").at(At::Fraction(0.9))))
+            .mark(
+                Curve::new(Role::ConjugateTime, points(t1))
+                    .label(DirectLabel::new("cusp, *T*/2").at(At::Fraction(0.9))),
+            )
             .mark(rule(Role::Reference, t_star, "*t*_{\\*} = π√*A*/√((*B*−*A*)(*C*−*A*))", At::Start))
             .mark(Points::new(Role::ConjugatePoint, vec![(0.0, last("t_limit")?)]).legend("extrapolated limit"));
         let angles = Panel::new(axis(), Axis::new("*θ* there").unit("rad"))
@@ -213,9 +239,9 @@ impl Definition for Remark {
         let smaller: Vec<usize> = (0..cusps.rows())
             .filter(|i| t1[*i] < t_star.value - t_star.error || theta[*i] < theta_star.value - theta_star.error)
             .collect();
-        let example = smaller.first().map_or(String::new(), |i| {
-            format!("phi0 = {:?}: t1 = {:?}, theta = {:?}", phi0[*i], t1[*i], theta[*i])
-        });
+        let example = smaller
+            .first()
+            .map_or(String::new(), |i| format!("phi0 = {:?}: t1 = {:?}, theta = {:?}", phi0[*i], t1[*i], theta[*i]));
         Ok(vec![
             claim(
                 "time",

@@ -72,7 +72,7 @@ const FINDINGS: Kind = findings_kind(
         "experiments/findings.rs",
         "experiments/scenes",
         "experiments/spin_branches.rs",
-            "table",
+        "table",
     ],
 );
 
@@ -115,14 +115,17 @@ impl Definition for Every {
             rows.push((group.replace('-', " "), shown("margin")?, shown("least_wrong_margin")?));
         }
         let ticks = rows.iter().enumerate().map(|(i, (name, ..))| (i as f64, Label::from(name.as_str())));
-        let decades = [(-6, "10^{−6}"), (-3, "10^{−3}"), (0, "1"), (4, "10^4"), (8, "10^8"), (12, "10^{12}"), (16, "10^{16}")];
+        let decades =
+            [(-6, "10^{−6}"), (-3, "10^{−3}"), (0, "1"), (4, "10^4"), (8, "10^8"), (12, "10^{12}"), (16, "10^{16}")];
         let x = Axis::new("measured over allowed")
             .log()
             .fixed(low / 3.0, high * 3.0)
             .ticks_at(decades.map(|(n, words)| (libm::pow(10.0, f64::from(n)), words)));
         let y = Axis::new("").fixed(-0.6, rows.len().max(1) as f64 - 0.4).ticks_at(ticks).reversed();
         let mut panel = Panel::new(x, y).mark(RuleLine::vertical(Role::Reference, 1.0));
-        let at = |values: &[f64], shift: f64, row: usize| values.iter().map(|x| (*x, row as f64 + shift)).collect::<Vec<_>>();
+        let at = |values: &[f64], shift: f64, row: usize| {
+            values.iter().map(|x| (*x, row as f64 + shift)).collect::<Vec<_>>()
+        };
         let mut right = Vec::new();
         let mut wrong = Vec::new();
         for (row, (_, own, least)) in rows.iter().enumerate() {
@@ -188,7 +191,8 @@ impl Definition for Every {
         claims.push(Claim {
             id: "no_wrong_form_survives".to_owned(),
             place: "not in the article: how statements are checked".to_owned(),
-            statement: "Every form that is wrong on purpose is refused by the check that accepts the claimed one.".to_owned(),
+            statement: "Every form that is wrong on purpose is refused by the check that accepts the claimed one."
+                .to_owned(),
             evidence: Evidence::Direct(Test::None { counterexamples: survivors, cases, example }),
             note: String::new(),
         });

@@ -16,7 +16,7 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, OscillatingStart, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
+use crate::effects::scene::{Effect, Inertia, OscillatingStart, SERRET_ANDOYER, Scene, SerretAndoyerMetric};
 use crate::effects::serret_andoyer::by_integration::{self, ConjugatePointsByIntegration};
 use crate::effects::serret_andoyer::conjugate_locus::{ConjugateLocus, Spacing};
 use crate::effects::serret_andoyer::conjugate_time_bounds::ConjugateTimeBounds;
@@ -127,9 +127,31 @@ const OWN: [Effect; 1] = [Effect::ConjugateLocus];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Theorem>();
 
-const PICTURE: Kind = picture_kind("theorem_3_9-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/theorem_3_9.rs", "plot", "table"]);
-const FINDINGS: Kind =
-    findings_kind("theorem_3_9-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/theorem_3_9.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "theorem_3_9-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/theorem_3_9.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "theorem_3_9-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/theorem_3_9.rs",
+        "table",
+    ],
+);
 
 struct Theorem;
 
@@ -234,11 +256,7 @@ impl Definition for Theorem {
         );
         let formulas = tables.get("equator-conjugate-point").map_err(unread)?;
         let t_star = formulas.lookup("quantity", "t_star", "value").map_err(unread)?;
-        let mut times = Panel::new(
-            Axis::new("*δ* = *B* *p*_*θ*^2 − 1").log(),
-            Axis::new("*t*_1").unit("length"),
-        )
-        .mark(
+        let mut times = Panel::new(Axis::new("*δ* = *B* *p*_*θ*^2 − 1").log(), Axis::new("*t*_1").unit("length")).mark(
             RuleLine::horizontal(Role::Reference, t_star)
                 .label(DirectLabel::new("π√*A*/√((*B*−*A*)(*C*−*A*))").at(At::Start).side(Side::Above)),
         );
@@ -276,8 +294,7 @@ impl Definition for Theorem {
         values.extend(formulas.into_iter().filter(|value| value.name == "t_star"));
         let grid = Grid::read(params, tables)?;
         let mut add = |name: &str, value: f64, error: f64, unit: &str, meaning: &str, route: &str| {
-            let (name, unit, meaning, route) =
-                (name.to_owned(), unit.to_owned(), meaning.to_owned(), route.to_owned());
+            let (name, unit, meaning, route) = (name.to_owned(), unit.to_owned(), meaning.to_owned(), route.to_owned());
             values.push(NamedValue { name, value, unit, meaning, route, error });
         };
         let closed = "closed form, equation (15) without poles";
@@ -378,7 +395,8 @@ impl Definition for Theorem {
                     printed: LN_3,
                     ours: value("supremum_rate")?,
                     tolerance: 1e-6,
-                    reason: "the limit ξ1 → 1 is approached like (1 − ξ1) K; rounding of 4 − t1 M/K, times K".to_owned(),
+                    reason: "the limit ξ1 → 1 is approached like (1 − ξ1) K; rounding of 4 − t1 M/K, times K"
+                        .to_owned(),
                 }),
                 "Not in the article: for m → 1 equation (15) becomes coth w = 4 − coth ψ0 with M t1 = 4K − ψ0 − w, largest at coth ψ0 = 2.",
             ),
