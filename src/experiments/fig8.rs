@@ -148,23 +148,28 @@ fn pole_claim(branches: &[Branch<'_>]) -> Claim {
     let evidence = if let (Some(before), Some(after)) = (before, after) {
         // Beyond the equator before and after, on opposite halves of the meridian: it passed the pole in between.
         let passed = if before.phi[0] > FRAC_PI_2 && after.phi[0] > FRAC_PI_2 { PI } else { 0.0 };
-        let test = |printed: f64| Test::Equal {
-            printed,
+        let test = |north: f64| Test::Equal {
+            printed: north,
             ours: passed,
             tolerance: 0.0,
             reason: "φ of the pole between the cusps of a k below k1 and of one above it".to_owned(),
         };
-        Evidence::Slip { printed: test(0.0), correction: "the pole φ = π".to_owned(), corrected: test(PI) }
+        Evidence::OnlyWhen {
+            condition: "the North pole is φ = π, not φ = 0".to_owned(),
+            inside: test(PI),
+            outside: test(0.0),
+        }
     } else {
         Evidence::NotChecked { reason: "the scene has no k in [1, k1), or none in (k1, k̄)".to_owned() }
     };
     Claim {
         id: "first_pole".to_owned(),
         place: "section 5.2.3".to_owned(),
-        statement: "For k > 1 the cusp first crosses the North pole (k = k1); with φ measured from the pole, North is φ = 0.".to_owned(),
+        statement: "For k > 1 the cusp first crosses the North pole (k = k1).".to_owned(),
         evidence,
-        note: "With p_φ(0) = −2 the extremals go first over φ = 0; the cusp is reached on the way back, after t1 = 3π/2 on the meridian, \
-               at the pole φ = π. It is φ = 0 for the other half, p_φ(0) = 2."
+        note: "The text does not say which pole is North; φ is measured from the pole φ = 0, which is N in the figure. With p_φ(0) = −2 \
+               the extremals go first over φ = 0; the cusp is reached on the way back, after t1 = 3π/2 on the meridian, at the pole φ = \
+               π. It is φ = 0 for the other half, p_φ(0) = 2."
             .to_owned(),
     }
 }

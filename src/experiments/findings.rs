@@ -105,17 +105,18 @@ impl Cases {
         }
     }
 
+    /// The test that none fails.
+    pub fn test(self) -> Test {
+        Test::None { counterexamples: self.faults, cases: self.all, example: self.example }
+    }
+
     /// The claim that none fails.
     pub fn claim(self, id: &str, place: &str, statement: &str) -> Claim {
         Claim {
             id: id.to_owned(),
             place: place.to_owned(),
             statement: statement.to_owned(),
-            evidence: Evidence::Direct(Test::None {
-                counterexamples: self.faults,
-                cases: self.all,
-                example: self.example,
-            }),
+            evidence: Evidence::Direct(self.test()),
             note: String::new(),
         }
     }
