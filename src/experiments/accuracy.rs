@@ -22,7 +22,7 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::cost_of_accuracy::counted::CostOfAccuracy;
+use crate::effects::cost_of_accuracy::counted::{CostOfAccuracy, DIVISION, DOUBLE_DOUBLE_PRODUCT, FUNCTION, ROOT};
 use crate::effects::cost_of_accuracy::problem::Problem;
 use crate::effects::cost_of_accuracy::quantities::{CostOfAccuracyQuantities, INPUT};
 use crate::effects::cost_of_accuracy::rotation_group::RotationGroup;
@@ -30,6 +30,7 @@ use crate::effects::cost_of_accuracy::serret_andoyer::SerretAndoyer;
 use crate::effects::cost_of_accuracy::spin::Spin;
 use crate::effects::cost_of_accuracy::timed::TimeOfAccuracy;
 use crate::effects::cost_of_effects::machine;
+use crate::effects::scene::Inertia;
 use crate::plot::axis::Axis;
 use crate::plot::mark::{At, Curve, DirectLabel, Points, RuleLine, Side, Text};
 use crate::plot::picture::{Layout, Panel, Picture, Width};
@@ -95,14 +96,17 @@ impl Params {
         RotationGroup { body: self.rotation_group.body.into(), directions: self.rotation_group.directions }
     }
 
-    /// The starts, in words.
+    /// The bodies and starts, in words.
     fn starts(&self) -> String {
+        let body = |Inertia { a, b, c }: Inertia| format!("A = {a}, B = {b}, C = {c}");
         format!(
-            "(a) Spin problem, k = {}, {} starts on the equator. (b) Serret-Andoyer flow (9), {} oscillating extremals. (c) SO(3), equation \
-             (2), the body of Fig. 9, {} momenta.",
+            "(a) Spin problem, k = {}, {} starts on the equator. (b) Serret-Andoyer flow (9), {}, {} oscillating extremals. (c) SO(3), \
+             equation (2), {}, {} momenta.",
             self.spin.k,
             self.spin.p_theta.count(),
+            body(self.serret_andoyer.body),
             self.serret_andoyer.xi1.count(),
+            body(self.rotation_group.body),
             self.rotation_group.directions,
         )
     }
@@ -231,7 +235,8 @@ impl Definition for AccuracyCost {
         let picture = Picture::new(Width::Double, 160.0, "What accuracy costs").layout(layout).caption(format!(
             "First conjugate times by each method. {} Upper row: largest relative error over the starts against work per conjugate time, in \
              multiplications of f64: of series, stages, events, interpolants and roots alike, counted by running each method on numbers that \
-             count; a division or a square root is one, a value of an elementary function 15, a product in double-double 9. A mark is a \
+             count; of f64 a division counts {DIVISION}, a square root {ROOT}, a value of an elementary function {FUNCTION}; a product in \
+             double-double {DOUBLE_DOUBLE_PRODUCT}. A mark is a \
              request: relative errors of {} of methods in f64, of {} of double-double; nothing is asked of the closed form. Grey guides: \
              error proportional to work to the power −8 (the order of DOP853) and −9 (of Verner's pair), and work proportional to the square of the \
              order 2 + ½ ln(1/error) of a power series. Marks fall faster than the guides: finding the conjugate time is work that hardly grows with \
