@@ -11,7 +11,7 @@
 //! are integrated too: as a warning.
 
 use super::definition::{Definition, Experiment, Measured, NOT_IN_ARTICLE, findings_kind, picture_kind};
-use super::findings::{Cases, quantities, unread};
+use super::findings::{Cases, claim, quantities, unread};
 use super::nodes::Nodes;
 use super::three_problems::{
     self, Measurement, PROBLEMS, ROTATION_GROUP, ROTATION_GROUP_LEAVES, RotationGroupStarts, SERRET_ANDOYER,
@@ -293,12 +293,9 @@ impl Definition for AccuracyCost {
                 }
             }
         }
-        let at_most = |id: &str, statement: &str, measured: f64, tolerance: f64, reason: &str| Claim {
-            id: id.to_owned(),
-            place: place.to_owned(),
-            statement: statement.to_owned(),
-            evidence: Evidence::Direct(Test::AtMost { measured, tolerance, reason: reason.to_owned() }),
-            note: String::new(),
+        let at_most = |id: &str, statement: &str, measured: f64, tolerance: f64, reason: &str| {
+            let test = Test::AtMost { measured, tolerance, reason: reason.to_owned() };
+            claim(id, place, statement, Evidence::Direct(test), "")
         };
         let mut claims = vec![
             at_most(
@@ -308,7 +305,7 @@ impl Definition for AccuracyCost {
                 1e-29,
                 "a hundred times the rounding of double-double: orders of magnitude below all errors judged but those of double-double at 1e-28",
             ),
-            falls.claim("errors_fall", place, "Asking for less error gives less, down to rounding, for every method."),
+            falls.claim("errors_fall", place, "Asking for less error gives less, down to rounding, for every method.", ""),
             at_most(
                 "power_series_give_what_is_asked",
                 "The largest error of power series, over the error asked for.",
@@ -321,6 +318,7 @@ impl Definition for AccuracyCost {
                 place,
                 "Of the integrations in f64 power series take the fewest multiplications: each mark of another has a mark of theirs with no \
                  more error and no more work.",
+                "",
             ),
         ];
         if let Some(closed) = closed {
@@ -336,6 +334,7 @@ impl Definition for AccuracyCost {
             "printed_chart_is_worse",
             place,
             "In the angles of Lemma 4.1 the same method, asked for the same, takes at least four times the work and errs more.",
+            "",
         ));
         Ok(claims)
     }

@@ -9,7 +9,7 @@
 //! numbers that count; what observers do (an event's own series, roots) is counted apart.
 
 use super::definition::{Definition, Experiment, Measured, NOT_IN_ARTICLE, findings_kind, picture_kind};
-use super::findings::{Cases, unread};
+use super::findings::{Cases, unread, value};
 use super::nodes::Nodes;
 use super::three_problems::{
     self, Measurement, PROBLEMS, ROTATION_GROUP, ROTATION_GROUP_LEAVES, RotationGroupStarts, SERRET_ANDOYER,
@@ -194,10 +194,9 @@ impl Definition for Cost {
             let counts = Counts::read(tables.get(problem).map_err(unread)?)?;
             let last = counts.last_accuracy();
             let base = counts.row("base", last)?;
-            let mut add = |name: String, value: f64, meaning: String| {
-                let (unit, route) = ("1".to_owned(), "counted".to_owned());
+            let mut add = |name: String, ratio: f64, meaning: String| {
                 // A quotient of two integers, rounded once.
-                values.push(NamedValue { name, value, unit, meaning, route, error: f64::EPSILON * value });
+                values.push(value(name, (ratio, f64::EPSILON * ratio), "1", meaning, "counted"));
             };
             let prefix = problem.replace('-', "_");
             for (set, words) in [
@@ -251,7 +250,7 @@ impl Definition for Cost {
             }
         }
         let place = "not in the article: how this program computes";
-        Ok(tests.into_iter().map(|(id, statement, cases)| cases.claim(id, place, statement)).collect())
+        Ok(tests.into_iter().map(|(id, statement, cases)| cases.claim(id, place, statement, "")).collect())
     }
 }
 

@@ -8,7 +8,7 @@
 //! Proposition 3.21, as they were read, are judged from numbers.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{quantities, unread};
+use super::findings::{Cases, claim, quantities, unread, value};
 use super::nodes::Nodes;
 use super::scenes::curvature::curvature_panel;
 use super::scenes::more::Asked;
@@ -206,14 +206,13 @@ impl Definition for Fig1 {
             return Ok(Vec::new());
         }
         let mut values = quantities(tables.get("curvature-profile").map_err(unread)?)?;
-        values.push(NamedValue {
-            name: "largest_curvature_difference".to_owned(),
-            value: curvature_difference(tables.get("curvature").map_err(unread)?)?,
-            unit: "1/length²".to_owned(),
-            meaning: "largest difference of the two routes to the Gauss curvature over the strip".to_owned(),
-            route: "formula in z against −(√μ)''/√μ by differences in double-double".to_owned(),
-            error: 4.0 * f64::EPSILON,
-        });
+        values.push(value(
+            "largest_curvature_difference",
+            (curvature_difference(tables.get("curvature").map_err(unread)?)?, 4.0 * f64::EPSILON),
+            "1/length²",
+            "largest difference of the two routes to the Gauss curvature over the strip",
+            "formula in z against −(√μ)''/√μ by differences in double-double",
+        ));
         Ok(values)
     }
 
@@ -231,14 +230,12 @@ impl Definition for Fig1 {
             tolerance,
             reason: rounding.clone(),
         };
-        let claim = |id: &str, statement: &str, evidence: Evidence, note: &str| Claim {
-            id: id.to_owned(),
-            place: "Proposition 3.21 and the text after it".to_owned(),
-            statement: statement.to_owned(),
-            evidence,
-            note: note.to_owned(),
+        let claim = |id: &str, statement: &str, evidence: Evidence, note: &str| {
+            claim(id, "Proposition 3.21 and the text after it", statement, evidence, note)
         };
-        let outside = [value("z_minus")? < 2.0 * a, value("z_minus")? > 2.0 * b, value("z_plus")? <= 2.0 * b];
+        let (z_minus, z_plus) = (value("z_minus")?, value("z_plus")?);
+        let inside = [z_minus >= 2.0 * a, z_minus <= 2.0 * b, z_plus > 2.0 * b];
+        let zeros = Cases::of(inside.map(|holds| (holds, format!("z− = {z_minus:?}, z+ = {z_plus:?}"))));
         let size = a + b + c;
         Ok(vec![
             claim(
@@ -261,16 +258,7 @@ impl Definition for Fig1 {
                 )),
                 "",
             ),
-            claim(
-                "zeros",
-                "z− lies in [2A, 2B] and z+ > 2B.",
-                Evidence::Direct(Test::None {
-                    counterexamples: outside.iter().filter(|out| **out).count() as u64,
-                    cases: outside.len() as u64,
-                    example: format!("z− = {:?}, z+ = {:?}", value("z_minus")?, value("z_plus")?),
-                }),
-                "",
-            ),
+            claim("zeros", "z− lies in [2A, 2B] and z+ > 2B.", Evidence::Direct(zeros.test()), ""),
             claim(
                 "zero_place",
                 "G vanishes at φ1 = sn⁻¹(√((z− − 2A)/(2(B−A))))/α.",
@@ -325,21 +313,16 @@ fn curvature_difference(table: &Table) -> Result<f64, NodeError> {
 /// Whether the edge is a local maximum: above the only minimum of G between equator and edge, for both bodies.
 fn edge_evidence(params: &Params, own: &Table, other: &Table) -> Result<Evidence, NodeError> {
     let bodies = [(params.scene.metric.serret_andoyer, own), (params.other_body, other)];
-    let mut sides = [(0, 0, String::new()), (0, 0, String::new())];
+    let mut sides = [Cases::default(), Cases::default()];
     for (Inertia { a, b, c }, profile) in bodies {
         let value = |name: &str| profile.lookup("quantity", name, "value").map_err(unread);
         let (edge, least) = (value("curvature_by_differences_at_edge")?, value("curvature_by_differences_at_minimum")?);
         // The minimum at the edge itself: no local maximum there. Differences are good to 1e-15.
         let is_maximum = edge > least + 1e-14;
         let side = &mut sides[usize::from(b * (a + c) <= 2.0 * a * c)];
-        side.1 += 1;
-        if !is_maximum {
-            side.0 += 1;
-            side.2 = format!("A = {a}, B = {b}, C = {c}: G(K/α) = {edge:?} is the least value");
-        }
+        side.add(!is_maximum, || format!("A = {a}, B = {b}, C = {c}: G(K/α) = {edge:?} is the least value"));
     }
-    let [inside, outside] =
-        sides.map(|(counterexamples, cases, example)| Test::None { counterexamples, cases, example });
+    let [inside, outside] = sides.map(Cases::test);
     Ok(Evidence::OnlyWhen { condition: "B > 2AC/(A + C)".to_owned(), inside, outside })
 }
 

@@ -7,10 +7,10 @@
 //! The article states no `φ0` for this figure: the config's is a choice.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::unread;
+use super::findings::{Cases, claim, named, unread, value};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
-use super::scenes::potential::{Member, member, members, potential_panel};
+use super::scenes::potential::{member, members, potential_panel};
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
@@ -151,10 +151,8 @@ impl Definition for Fig2 {
     fn values(_: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
         let members = members(tables.get("potential").map_err(unread)?)?;
         let mut values = Vec::new();
-        let mut add = |name: &str, value: f64, relative: f64, meaning: &str, route: &str| {
-            let (name, meaning, route) = (name.to_owned(), meaning.to_owned(), route.to_owned());
-            let error = relative * f64::EPSILON * value;
-            values.push(NamedValue { name, value, unit: "1".to_owned(), meaning, route, error });
+        let mut add = |name: &str, number: f64, relative: f64, meaning: &str, route: &str| {
+            values.push(value(name, (number, relative * f64::EPSILON * number), "1", meaning, route));
         };
         let (separatrix, equator, start) =
             (member(&members, SEPARATRIX)?, member(&members, EQUATOR)?, member(&members, START)?);
@@ -173,30 +171,23 @@ impl Definition for Fig2 {
         let mut members = members(tables.get("potential").map_err(unread)?)?;
         members.sort_by(|a, b| a.p_theta.total_cmp(&b.p_theta));
         let values = Self::values(params, tables)?;
-        let value = |name: &str| {
-            let found = values.iter().find(|value| value.name == name).map(|value| value.value);
-            found.ok_or_else(|| NodeError::new(format!("no value {name}")))
-        };
-        let (mut pairs, mut falling, mut example) = (0, 0, String::new());
+        let value = |name: &str| named(&values, name).map(|found| found.value);
+        let mut growing = Cases::default();
         for pair in members.windows(2).filter(|pair| pair[1].p_theta > pair[0].p_theta) {
             for (low, high) in pair[0].points.iter().zip(&pair[1].points) {
-                pairs += 1;
-                if high.1 <= low.1 {
-                    falling += 1;
-                    example = format!("φ = {:?}: p_θ = {:?} and {:?}", low.0, pair[0].p_theta, pair[1].p_theta);
-                }
+                growing.add(high.1 <= low.1, || {
+                    format!("φ = {:?}: p_θ = {:?} and {:?}", low.0, pair[0].p_theta, pair[1].p_theta)
+                });
             }
         }
         let (low, high) = (value("p_theta_separatrix")?, value("p_theta_start")?);
-        let family: Vec<&Member> = members.iter().filter(|m| m.curve == FAMILY || m.curve == START).collect();
-        let wrong: Vec<&&Member> =
-            family.iter().filter(|m| (m.class == OSCILLATING) != (m.p_theta > low && m.p_theta <= high)).collect();
-        let claim = |id: &str, statement: &str, test: Test| Claim {
-            id: id.to_owned(),
-            place: "section 3.3.3, before Figure 2".to_owned(),
-            statement: statement.to_owned(),
-            evidence: Evidence::Direct(test),
-            note: String::new(),
+        let family = members.iter().filter(|m| m.curve == FAMILY || m.curve == START);
+        let zone = Cases::of(family.map(|m| {
+            let as_said = (m.class == OSCILLATING) == (m.p_theta > low && m.p_theta <= high);
+            (as_said, format!("p_θ = {:?}: {}", m.p_theta, m.class))
+        }));
+        let claim = |id: &str, statement: &str, test: Test| {
+            claim(id, "section 3.3.3, before Figure 2", statement, Evidence::Direct(test), "")
         };
         let one = |ours: f64| Test::Equal {
             printed: 1.0,
@@ -205,11 +196,7 @@ impl Definition for Fig2 {
             reason: "rounding of a product of three".to_owned(),
         };
         Ok(vec![
-            claim(
-                "increasing",
-                "V(φ, p_θ) increases with p_θ at every φ.",
-                Test::None { counterexamples: falling, cases: pairs, example },
-            ),
+            claim("increasing", "V(φ, p_θ) increases with p_θ at every φ.", growing.test()),
             claim(
                 "separatrix",
                 "p_θ = B^(−1/2) describes the separatrix: its potential reaches 1 only at the edges.",
@@ -223,11 +210,7 @@ impl Definition for Fig2 {
             claim(
                 "start_zone",
                 "Oscillating trajectories from φ0 have p_θ in (B^(−1/2), (2/z(φ0))^(1/2)].",
-                Test::None {
-                    counterexamples: wrong.len() as u64,
-                    cases: family.len() as u64,
-                    example: wrong.first().map_or(String::new(), |m| format!("p_θ = {:?}: {}", m.p_theta, m.class)),
-                },
+                zone.test(),
             ),
         ])
     }

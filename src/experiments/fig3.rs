@@ -9,7 +9,7 @@
 //! The article does not say where its extremals start: the config's starts are a choice.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{largest_route_difference, routes_agree, unread};
+use super::findings::{Cases, claim, largest_route_difference, routes_agree, unread, value};
 use super::nodes::Nodes;
 use super::scenes::curves::{curves, minus, mirrored};
 use super::scenes::more::Asked;
@@ -258,15 +258,9 @@ impl Definition for Fig3 {
     fn values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
         let mut values = Vec::new();
         for (i, phi0) in params.scene.start.phi0.values().into_iter().enumerate() {
-            let mut add = |name: &str, value: f64, error: f64, unit: &str, meaning: &str, route: &str| {
-                values.push(NamedValue {
-                    name: format!("{name}_{}", i + 1),
-                    value,
-                    unit: unit.to_owned(),
-                    meaning: format!("start φ0 = {phi0:?}: {meaning}"),
-                    route: route.to_owned(),
-                    error,
-                });
+            let mut add = |name: &str, number: f64, error: f64, unit: &str, meaning: &str, route: &str| {
+                let (name, meaning) = (format!("{name}_{}", i + 1), format!("start φ0 = {phi0:?}: {meaning}"));
+                values.push(value(name, (number, error), unit, meaning, route));
             };
             if params.scene.asks_for(Effect::ConjugateLocus) {
                 let locus = Locus::read(tables.get(&name("conjugate-locus", phi0)).map_err(unread)?)?;
@@ -539,48 +533,23 @@ fn caption(params: &Params, tables: &Tables) -> Result<String, NodeError> {
     Ok(text)
 }
 
-fn claim(id: &str, place: &str, statement: &str, evidence: Evidence, note: &str) -> Claim {
-    Claim {
-        id: id.to_owned(),
-        place: place.to_owned(),
-        statement: statement.to_owned(),
-        evidence,
-        note: note.to_owned(),
-    }
-}
-
-fn none(found: &[String], cases: usize) -> Test {
-    Test::None {
-        counterexamples: found.len() as u64,
-        cases: cases as u64,
-        example: found.first().cloned().unwrap_or_default(),
-    }
-}
-
 fn locus_claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
     let half_width = params.scene.metric.half_width();
-    let (mut inward, mut reversed, mut beyond, mut steps) = (Vec::new(), Vec::new(), 0.0_f64, 0);
-    let (mut on_equator, mut below) = ((Vec::new(), 0), (Vec::new(), 0));
+    let (mut inward, mut reversed, mut beyond) = (Cases::default(), Cases::default(), 0.0_f64);
+    let (mut on_equator, mut below) = (Cases::default(), Cases::default());
     for phi0 in params.scene.start.phi0.values() {
         let locus = Locus::read(tables.get(&name("conjugate-locus", phi0)).map_err(unread)?)?;
         let at = |row: usize| format!("φ0 = {phi0:?}, branch {}, δ = {:?}", locus.branch[row], locus.delta[row]);
         // Rows run along the locus, from one asymptote to the other: φ must grow all the way.
         for row in 1..locus.phi.len() {
-            steps += 1;
-            if locus.phi[row] < locus.phi[row - 1] {
-                reversed.push(at(row));
-            }
+            reversed.add(locus.phi[row] < locus.phi[row - 1], || at(row));
             let towards_cusp = row <= locus.cusp;
-            if (locus.theta[row] < locus.theta[row - 1]) != towards_cusp {
-                inward.push(at(row));
-            }
+            inward.add((locus.theta[row] < locus.theta[row - 1]) != towards_cusp, || at(row));
         }
         beyond = beyond.max((locus.phi[locus.cusp] + phi0).abs());
-        let ascending = 0..locus.cusp;
         let side = if phi0 == 0.0 { &mut on_equator } else { &mut below };
         if phi0 <= 0.0 {
-            side.1 += ascending.len();
-            side.0.extend(ascending.filter(|row| locus.phi[*row] >= 0.0).map(at));
+            (0..locus.cusp).for_each(|row| side.add(locus.phi[row] >= 0.0, || at(row)));
         }
     }
     let theorem = "Theorem 3.24";
@@ -589,14 +558,14 @@ fn locus_claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeErro
             "two_branches",
             theorem,
             "Each component consists of two smooth branches that run from the cusp to θ = ±∞.",
-            Evidence::Direct(none(&inward, steps)),
+            Evidence::Direct(inward.test()),
             "Along the locus θ falls to the cusp and grows beyond it.",
         ),
         claim(
             "parametrised",
             "proof of Theorem 3.24",
             "φ at the conjugate point is monotone along the locus, so that p_θ parametrises each branch.",
-            Evidence::Direct(none(&reversed, steps)),
+            Evidence::Direct(reversed.test()),
             "",
         ),
         claim(
@@ -618,16 +587,12 @@ fn locus_claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeErro
             "The distance falls like √δ, δ = B p_θ² − 1, while θ grows like log(1/δ).",
         ),
     ];
-    if on_equator.1 > 0 && below.1 > 0 {
+    if !on_equator.is_empty() && !below.is_empty() {
         claims.push(claim(
             "below_equator",
             "proof of Theorem 3.24",
             "On ascending extremals from −K(k)/α ≤ φ0 ≤ 0 the first conjugate point has φ < 0.",
-            Evidence::OnlyWhen {
-                condition: "φ0 = 0".to_owned(),
-                inside: none(&on_equator.0, on_equator.1),
-                outside: none(&below.0, below.1),
-            },
+            Evidence::OnlyWhen { condition: "φ0 = 0".to_owned(), inside: on_equator.test(), outside: below.test() },
             "The cusp lies at φ = −φ0 > 0, and so do the points near it.",
         ));
     }
@@ -636,57 +601,43 @@ fn locus_claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeErro
 
 /// The distance of both branches from the asymptotes falls at least like δ^0.4 over the last rows, where δ falls by a known factor.
 fn asymptote_test(params: &Params, tables: &Tables, half_width: f64) -> Result<Test, NodeError> {
-    let (mut found, mut cases) = (Vec::new(), 0);
+    let mut cases = Cases::default();
     for phi0 in params.scene.start.phi0.values() {
         let locus = Locus::read(tables.get(&name("conjugate-locus", phi0)).map_err(unread)?)?;
         let last = locus.phi.len() - 1;
         let tail = (locus.cusp / 4).max(1);
         for (end, before, sign) in [(0, tail, -1.0), (last, last - tail, 1.0)] {
             let gap = |row: usize| half_width - sign * locus.phi[row];
-            cases += 1;
-            // (gap ratio)² against (δ ratio)^0.8 by squares only: δ falls by ≥ 10 in the tail of every sensible spacing.
+            // (gap ratio)⁵ against (δ ratio)², by products only: δ falls by ≥ 10 in the tail of every sensible spacing.
             let (fall, delta_fall) = (gap(end) / gap(before), locus.delta[end] / locus.delta[before]);
-            let fourth = fall * fall * fall * fall * fall;
-            if !(gap(end) > 0.0 && fourth <= delta_fall * delta_fall) {
-                found.push(format!("φ0 = {phi0:?}, δ = {:?}: K/α − |φ| = {:?}", locus.delta[end], gap(end)));
-            }
+            let fifth = fall * fall * fall * fall * fall;
+            let slow = !(gap(end) > 0.0 && fifth <= delta_fall * delta_fall);
+            cases.add(slow, || format!("φ0 = {phi0:?}, δ = {:?}: K/α − |φ| = {:?}", locus.delta[end], gap(end)));
         }
     }
-    Ok(none(&found, cases))
+    Ok(cases.test())
 }
 
 fn return_claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
-    let (mut rising, mut concave, mut cases) = (Vec::new(), Vec::new(), 0);
+    let (mut rising, mut concave) = (Cases::default(), Cases::default());
     for phi0 in params.scene.start.phi0.values() {
         let table = tables.get(&name("cut-locus", phi0)).map_err(unread)?;
         let column = |name: &str| table.f64s(name).map_err(unread);
         let (p_theta, slope, bend) = (column("p_theta")?, column("slope")?, column("bend")?);
         for row in 0..table.rows() {
-            cases += 1;
-            if slope[row] >= 0.0 {
-                rising.push(format!("p_θ = {:?}: slope {:?}", p_theta[row], slope[row]));
-            }
-            if bend[row] <= 0.0 {
-                concave.push(format!("p_θ = {:?}: bend {:?}", p_theta[row], bend[row]));
-            }
+            rising.add(slope[row] >= 0.0, || format!("p_θ = {:?}: slope {:?}", p_theta[row], slope[row]));
+            concave.add(bend[row] <= 0.0, || format!("p_θ = {:?}: bend {:?}", p_theta[row], bend[row]));
         }
     }
     let place = "Proposition 3.23";
     Ok(vec![
-        claim(
+        rising.claim(
             "return_decreases",
             place,
             "The first return Δθ(p_θ) decreases for B^(−1/2) < p_θ < A^(−1/2): the flow is tame.",
-            Evidence::Direct(none(&rising, cases)),
             "",
         ),
-        claim(
-            "return_convex",
-            place,
-            "The first return Δθ(p_θ) is strictly convex.",
-            Evidence::Direct(none(&concave, cases)),
-            "",
-        ),
+        concave.claim("return_convex", place, "The first return Δθ(p_θ) is strictly convex.", ""),
     ])
 }
 
@@ -716,7 +667,7 @@ fn crossing_claim(params: &Params, tables: &Tables) -> Result<Claim, NodeError> 
         "Corollary 3.3 ii; section 3.3.3",
         "A wave front first crosses itself on the cut ray: both extremals have the same p_θ and meet at (Δθ(p_θ), −φ0) at t = T(p_θ)/2.",
         evidence,
-        &format!(
+        format!(
             "{count} crossings; the largest of distance from the ray, difference in p_θ and relative difference to T/2."
         ),
     ))

@@ -10,6 +10,7 @@
 //! geometrically.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
+use super::findings::{Cases, claim, unread, value};
 use super::nodes::{Nodes, TableRef};
 use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
@@ -27,7 +28,7 @@ use crate::plot::axis::Axis;
 use crate::plot::mark::{Curve, Points, RuleLine, Side, Text};
 use crate::plot::picture::{Legend, Panel, Picture, Width};
 use crate::plot::role::Role;
-use crate::table::{Table, TableError, Tables};
+use crate::table::{Table, Tables};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -249,17 +250,6 @@ impl Definition for Fig4 {
     }
 }
 
-fn value(name: impl Into<String>, (value, error): (f64, f64), meaning: impl Into<String>, route: &str) -> NamedValue {
-    NamedValue {
-        name: name.into(),
-        value,
-        unit: "1".to_owned(),
-        meaning: meaning.into(),
-        route: route.to_owned(),
-        error,
-    }
-}
-
 fn switch_values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
     let mut values = Vec::new();
     let mut difference: f64 = 0.0;
@@ -269,7 +259,7 @@ fn switch_values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, No
             let what = if switch.pole { "a pole" } else { "the equator" };
             let meaning = format!("k at which the first conjugate point for p_θ = {p_theta:?} passes {what}");
             let route = "root in k of the closed form; second route: root in k of the integrated lift";
-            values.push(value(name, (switch.k, switch.error), meaning, route));
+            values.push(value(name, (switch.k, switch.error), "1", meaning, route));
         }
         let check = tables.get(&at(SWITCHES_CHECK, p_theta)).map_err(unread)?;
         difference = check.f64s("difference").map_err(unread)?.iter().copied().fold(difference, f64::max);
@@ -277,11 +267,12 @@ fn switch_values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, No
     for switch in switches(tables, params.scene.start.p_theta)? {
         let meaning = format!("limit of {} for p_θ → 0: {}", switch.name(), switch.formula());
         let error = 2.0 * f64::EPSILON * switch.limit;
-        values.push(value(format!("{}_limit", switch.name()), (switch.limit, error), meaning, "algebraic"));
+        values.push(value(format!("{}_limit", switch.name()), (switch.limit, error), "1", meaning, "algebraic"));
     }
     values.push(value(
         "largest_switch_difference",
         (difference, f64::EPSILON),
+        "1",
         "largest difference in k of a switch point between closed form and integration",
         "closed form in f64 against power series in double-double",
     ));
@@ -294,32 +285,18 @@ fn curve_values(tables: &Tables) -> Result<[NamedValue; 2], NodeError> {
         value(
             "largest_route_difference",
             (check.well, 4.0 * f64::EPSILON),
+            "1",
             "largest relative difference of t1 between the routes where 1e-12 is asked",
             "closed form against power series",
         ),
         value(
             "largest_route_difference_in_bounds",
             (check.in_bounds, 1e-3),
+            "1",
             "largest difference of t1 in units of what its row allows, vertical tangents included",
             "closed form against power series, in double-double next to vertical tangents",
         ),
     ])
-}
-
-fn claim(id: &str, place: &str, statement: impl Into<String>, test: Test, note: impl Into<String>) -> Claim {
-    Claim {
-        id: id.to_owned(),
-        place: place.to_owned(),
-        statement: statement.into(),
-        evidence: Evidence::Direct(test),
-        note: note.into(),
-    }
-}
-
-/// A statement about one thing, which holds or not.
-fn one_case(holds: bool, found: String) -> Test {
-    let example = if holds { String::new() } else { found };
-    Test::None { counterexamples: u64::from(!holds), cases: 1, example }
 }
 
 /// What the article prints about k1, k2, k3 and k̄.
@@ -329,23 +306,23 @@ fn printed_switches(found: &[Switch]) -> Vec<Claim> {
     for (switch, printed) in poles.iter().zip([1.061, 1.250, 1.429]) {
         let (name, reason) = (switch.name(), "half a unit of the last printed digit".to_owned());
         let test = Test::Equal { printed, ours: switch.k, tolerance: 0.5e-3, reason };
-        claims.push(claim(&name, PLACE, format!("{name} is approximately {printed:.3}."), test, ""));
+        claims.push(claim(&name, PLACE, format!("{name} is approximately {printed:.3}."), Evidence::Direct(test), ""));
     }
     let reason = "a count; the range of k is scanned for every whole turn".to_owned();
     let test = Test::Equal { printed: 3.0, ours: poles.len() as f64, tolerance: 0.0, reason };
     let statement = "θ of the first conjugate point switches three times for k in [1, 1.5].";
-    claims.push(claim("three_switches", PLACE, statement, test, ""));
+    claims.push(claim("three_switches", PLACE, statement, Evidence::Direct(test), ""));
     let [first, second, third] = poles[..] else { return claims };
     let (below, above) = (second.k - first.k, third.k - second.k);
     let known = first.error + 2.0 * second.error + third.error;
-    let test = one_case((below - above).abs() > known, format!("{below:?} and {above:?}"));
+    let cases = Cases::of([((below - above).abs() > known, format!("{below:?} and {above:?}"))]);
     let note = format!("They are {below:.12} and {above:.12}.");
-    claims.push(claim("unequal_steps", PLACE, "k2 − k1 differs from k3 − k2.", test, note));
+    claims.push(cases.claim("unequal_steps", PLACE, "k2 − k1 differs from k3 − k2.", note));
     if let Some(bar) = found.iter().find(|switch| !switch.pole) {
-        let test = one_case(first.k < bar.k && bar.k < second.k, format!("{:?}", bar.k));
+        let cases = Cases::of([(first.k < bar.k && bar.k < second.k, format!("{:?}", bar.k))]);
         let statement = "The conjugate point crosses the equator at a k̄ between k1 and k2.";
         let note = "A second crossing, k̄', lies between k2 and k3.";
-        claims.push(claim("k_bar_between", PLACE, statement, test, note));
+        claims.push(cases.claim("k_bar_between", PLACE, statement, note));
     }
     claims
 }
@@ -363,7 +340,7 @@ fn limit_claim(params: &Params, tables: &Tables) -> Result<Option<Claim>, NodeEr
         "limits",
         "beyond the article",
         "For p_θ → 0 the switch points tend to (2n+1)/√(8n) (poles) and n/√(2n−1) (equator).",
-        test,
+        Evidence::Direct(test),
         "On the meridian w tan t = tan(wt), w² = 1 − 1/k²; a pole is t = (n+½)π, w = (2n−1)/(2n+1), the equator \
          t = nπ, w = (n−1)/n.",
     )))
@@ -379,7 +356,7 @@ fn switch_routes_agree(params: &Params, tables: &Tables) -> Result<Claim, NodeEr
     let reason = "the closed form's own error in k, a few units in its last place".to_owned();
     let statement = "Closed form and integration give the same switch points.";
     let test = Test::AtMost { measured, tolerance, reason };
-    Ok(claim("switch_routes_agree", "all switch points of this experiment", statement, test, ""))
+    Ok(claim("switch_routes_agree", "all switch points of this experiment", statement, Evidence::Direct(test), ""))
 }
 
 fn meridian_claim(tables: &Tables) -> Result<Claim, NodeError> {
@@ -400,7 +377,7 @@ fn meridian_claim(tables: &Tables) -> Result<Claim, NodeError> {
         "θ passes continuously from π to 0 and back, since r3 is of order p_θ³ and not 0; it is farther than 1e-3 rad \
          from both within less than {width:.1e} of k in all."
     );
-    Ok(claim("theta_is_0_or_pi", PLACE, statement, test, note))
+    Ok(claim("theta_is_0_or_pi", PLACE, statement, Evidence::Direct(test), note))
 }
 
 fn curve_routes_agree(tables: &Tables) -> Result<Claim, NodeError> {
@@ -414,7 +391,7 @@ fn curve_routes_agree(tables: &Tables) -> Result<Claim, NodeError> {
     };
     let statement = "Closed form and integration give the same conjugate times.";
     let note = format!("{} of {} rows needed double-double.", check.long, check.rows);
-    Ok(claim("routes_agree", "all conjugate times of this experiment", statement, test, note))
+    Ok(claim("routes_agree", "all conjugate times of this experiment", statement, Evidence::Direct(test), note))
 }
 
 /// The momenta of the switch points, the scene's first, with the config keys they come from.
@@ -423,10 +400,6 @@ fn momenta(params: &Params) -> Vec<(f64, String)> {
     let more = params.limit.p_theta.iter().enumerate().filter(|(_, value)| **value != scene);
     let more = more.map(|(i, value)| (*value, format!("limit.p_theta[{i}]")));
     std::iter::once((scene, "scene.start.p_theta".to_owned())).chain(more).collect()
-}
-
-fn unread(error: TableError) -> NodeError {
-    NodeError::new(error.to_string())
 }
 
 fn at(node: &str, p_theta: f64) -> String {

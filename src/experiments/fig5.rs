@@ -9,11 +9,12 @@
 //! two momenta with one conjugate point; for `k → k̄` it goes to the start.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
+use super::findings::{Cases, unread};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
 use super::spin_branches::{
     Branch, ask_for_branch, ask_for_double_points, contact, cusp_values, double_point_values, double_points,
-    largest_route_difference, no_counterexample, routes_agree, switches, unread, validate_panels,
+    largest_route_difference, routes_agree, switches, validate_panels,
 };
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::Claim;
@@ -276,29 +277,19 @@ impl Definition for Fig5 {
             (length[b] < length[a], format!("k = {:?}, {:?}: lengths {:?}, {:?}", ks[a], ks[b], length[a], length[b]))
         });
         Ok(vec![
-            no_counterexample(
-                ("half_plane", "section 5.2.1", "For any k in [1, k3] the branch lies in the half-plane θ ≥ 0."),
-                half_plane,
+            Cases::of(half_plane).claim("half_plane", "section 5.2.1", "For any k in [1, k3] the branch lies in the half-plane θ ≥ 0.",
                 "Every sample of every branch; also θ ≤ π.",
             ),
-            no_counterexample(
-                ("loop", "section 5.2.1", "The branch forms a loop for k̄ ≤ k ≤ k3 (and none before)."),
-                has_loop,
+            Cases::of(has_loop).claim("loop", "section 5.2.1", "The branch forms a loop for k̄ ≤ k ≤ k3 (and none before).",
                 "At k̄ the cusp passes the start along the meridian θ = 0. From then on the strand that comes from the cusp has to cross the arc that \
                  leaves the start, which touches the meridian from the other side of the equator: a double point, one for each k examined.",
             ),
-            no_counterexample(
-                (
-                    "ends_on_meridian",
+            Cases::of(ends).claim("ends_on_meridian",
                     "section 5.2.1",
                     "The branch ends at θ = π for k < k1, at θ = 0 for k1 < k < k2, at θ = π for k2 < k < k3.",
-                ),
-                ends,
                 "The limit p_θ → 0: k1 = 3/√8, k2 = 5/4, k3 = 7/√24.",
             ),
-            no_counterexample(
-                ("loops_shrink", "section 5.2.3", "The loops become smaller and smaller for greater values of k."),
-                shrinks,
+            Cases::of(shrinks).claim("loops_shrink", "section 5.2.3", "The loops become smaller and smaller for greater values of k.",
                 "The length of the loop on the sphere, over the values of k examined.",
             ),
             contact(&branches(params, tables)?),

@@ -11,7 +11,7 @@
 //! polynomials in the lift, never sampled.
 
 use super::definition::{Definition, Experiment, NOT_IN_ARTICLE, findings_kind, picture_kind};
-use super::findings::Cases;
+use super::findings::{Cases, claim, largest, unread, value};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
@@ -31,7 +31,7 @@ use crate::plot::axis::Axis;
 use crate::plot::mark::{Curve, Points, RuleLine};
 use crate::plot::picture::{Layout, Letter, Panel, Picture, Width};
 use crate::plot::role::Role;
-use crate::table::{Table, TableError, Tables};
+use crate::table::{Table, Tables};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -243,8 +243,11 @@ impl Definition for Fig6 {
             values.extend(grid_values(tables.get(GRID).map_err(unread)?)?);
             values.extend(example_values(tables.get(TURNS).map_err(unread)?, params.types.decrease_tolerance)?);
         }
-        if params.scene.asks_for(Effect::Geodesics) {
-            let distance = largest(tables.get(DRAWN).map_err(unread)?, "closed_form_distance")?;
+        let drawn =
+            if params.scene.asks_for(Effect::Geodesics) { Some(tables.get(DRAWN).map_err(unread)?) } else { None };
+        // Where no trajectory is of any of the four types, none is drawn.
+        if let Some(drawn) = drawn.filter(|drawn| drawn.rows() > 0) {
+            let distance = largest(drawn, "closed_form_distance")?;
             values.push(value(
                 "largest_position_difference",
                 (distance, 4.0 * f64::EPSILON),
@@ -278,14 +281,6 @@ impl Definition for Fig6 {
         claims.push(routes_agree(tables.get(GRID).map_err(unread)?)?);
         Ok(claims)
     }
-}
-
-fn unread(error: TableError) -> NodeError {
-    NodeError::new(error.to_string())
-}
-
-fn largest(table: &Table, column: &str) -> Result<f64, NodeError> {
-    Ok(table.f64s(column).map_err(unread)?.iter().copied().fold(0.0, f64::max))
 }
 
 /// One trajectory, as it is drawn.
@@ -350,11 +345,6 @@ fn chart_of_types(params: &Params, table: &Table) -> Result<Picture, NodeError> 
     let picture = Picture::new(Width::Double, 100.0, "Types of trajectories");
     let caption = "Types of the trajectories over the grid of k and p_θ (section 5.2.1).";
     Ok(picture.caption(caption).panel(panel))
-}
-
-fn value(name: impl Into<String>, (value, error): (f64, f64), unit: &str, meaning: &str, route: &str) -> NamedValue {
-    let (name, unit, meaning) = (name.into(), unit.to_owned(), meaning.to_owned());
-    NamedValue { name, value, unit, meaning, route: route.to_owned(), error }
 }
 
 fn range_values(table: &Table) -> Result<Vec<NamedValue>, NodeError> {
@@ -454,14 +444,13 @@ impl<'a> Grid<'a> {
         rows.into_iter()
     }
 
-    /// Counterexamples among the values of k, with the first one.
-    fn over_k(&self, wrong: impl Fn(f64) -> bool, example: impl Fn(f64) -> String) -> Test {
-        let found: Vec<f64> = self.values.iter().copied().filter(|k| wrong(*k)).collect();
-        Test::None {
-            counterexamples: found.len() as u64,
-            cases: self.values.len() as u64,
-            example: found.first().map_or(String::new(), |k| example(*k)),
+    /// The values of k as cases.
+    fn over_k(&self, wrong: impl Fn(f64) -> bool, words: impl Fn(f64) -> String) -> Cases {
+        let mut cases = Cases::default();
+        for k in &self.values {
+            cases.add(wrong(*k), || words(*k));
         }
+        cases
     }
 
     fn shows(&self, kind: &str, k: f64) -> bool {
@@ -499,85 +488,65 @@ impl<'a> Grid<'a> {
         let falling = above_one().filter(|i| self.decrease[*i] > ROUNDING / self.p_theta[*i]).count();
         let ends = k.first().zip(p_theta.first()).into_iter().chain(k.last().zip(p_theta.last()));
         let ends: Vec<String> = ends.map(|(k, p)| format!("p_θ = {p:.5} for k = {k:?}")).collect();
-        Ok(Claim {
-            note: format!(
-                "On the equator θ' changes sign unless k = 1 or sin 2θ = 0. So for k > 1 it is one start of each k only, the one whose \
-                 first return is at θ = π/2: {}. Of the {} trajectories of the grid with k > 1, θ decreases by more than rounding on \
-                 {falling}.",
-                ends.join(", "),
-                above_one().count(),
-            ),
-            ..cases.claim("type_i", PLACE, "Type i, θ not decreasing on [0, t1], occurs for every k with 1 ≤ k ≤ k3.")
-        })
+        let note = format!(
+            "On the equator θ' changes sign unless k = 1 or sin 2θ = 0. So for k > 1 it is one start of each k only, the one whose first \
+             return is at θ = π/2: {}. Of the {} trajectories of the grid with k > 1, θ decreases by more than rounding on {falling}.",
+            ends.join(", "),
+            above_one().count(),
+        );
+        let statement = "Type i, θ not decreasing on [0, t1], occurs for every k with 1 ≤ k ≤ k3.";
+        Ok(cases.claim("type_i", PLACE, statement, note))
     }
 
     /// Type i as the figure shows it: with a tolerance it is more than one trajectory.
     fn tolerance_claim(&self, tolerance: f64) -> Claim {
-        Claim {
-            id: "type_i_with_tolerance".to_owned(),
-            place: NOT_IN_ARTICLE.to_owned(),
-            statement: format!(
-                "With a total decrease of θ on [0, t1] up to {tolerance:?} rad counted as none, every k of the grid has trajectories of \
-                 type i on it."
-            ),
-            evidence: Evidence::Direct(self.over_k(|k| !self.shows("i", k), |k| format!("k = {k:?}"))),
-            note: self.extent(),
-        }
+        let statement = format!(
+            "With a total decrease of θ on [0, t1] up to {tolerance:?} rad counted as none, every k of the grid has trajectories of type i \
+             on it."
+        );
+        let cases = self.over_k(|k| !self.shows("i", k), |k| format!("k = {k:?}"));
+        cases.claim("type_i_with_tolerance", NOT_IN_ARTICLE, statement, self.extent())
     }
 
     fn range_claim(&self, kind: &str, name: &str, from: f64) -> Claim {
         let differs = |k: f64| self.shows(kind, k) != (k >= from);
-        Claim {
-            id: format!("type_{kind}_range"),
-            place: PLACE.to_owned(),
-            statement: format!("Type {kind} exists for {name} ≤ k ≤ k3, and not below."),
-            evidence: Evidence::Direct(self.over_k(differs, |k| format!("k = {k:?}: {}", self.shows(kind, k)))),
-            note: self.extent(),
-        }
+        let statement = format!("Type {kind} exists for {name} ≤ k ≤ k3, and not below.");
+        let cases = self.over_k(differs, |k| format!("k = {k:?}: {}", self.shows(kind, k)));
+        cases.claim(&format!("type_{kind}_range"), PLACE, statement, self.extent())
     }
 
     fn exit_claim(&self) -> Claim {
-        let exits: Vec<usize> = (0..self.k.len()).filter(|i| self.t_exit[*i].is_finite()).collect();
-        let early: Vec<usize> = exits.iter().copied().filter(|i| self.t_exit[*i] <= self.t1[*i]).collect();
-        let example = early.first().map_or(String::new(), |i| {
-            let (k, p_theta, t_exit, t1) = (self.k[*i], self.p_theta[*i], self.t_exit[*i], self.t1[*i]);
-            format!("k = {k:?}, p_θ = {p_theta:?}: t̄ = {t_exit:?}, t1 = {t1:?}")
-        });
-        Claim {
-            id: "exit_after_conjugate".to_owned(),
-            place: PLACE.to_owned(),
-            statement: "The first exit from 0 ≤ θ ≤ π lies after the first conjugate time (types ii to iv).".to_owned(),
-            evidence: Evidence::Direct(Test::None {
-                counterexamples: early.len() as u64,
-                cases: exits.len() as u64,
-                example,
-            }),
-            note: "Implied by the definition of the types. For p_θ → 0 the two times meet like p_θ².".to_owned(),
+        let mut cases = Cases::default();
+        for i in (0..self.k.len()).filter(|i| self.t_exit[*i].is_finite()) {
+            let (k, p_theta, t_exit, t1) = (self.k[i], self.p_theta[i], self.t_exit[i], self.t1[i]);
+            cases.add(t_exit <= t1, || format!("k = {k:?}, p_θ = {p_theta:?}: t̄ = {t_exit:?}, t1 = {t1:?}"));
         }
+        cases.claim(
+            "exit_after_conjugate",
+            PLACE,
+            "The first exit from 0 ≤ θ ≤ π lies after the first conjugate time (types ii to iv).",
+            "Implied by the definition of the types. For p_θ → 0 the two times meet like p_θ².",
+        )
     }
 
     fn complete_claim(&self, tolerance: f64) -> Claim {
-        let others: Vec<usize> = (0..self.k.len()).filter(|i| self.types[*i] == "none").collect();
-        let example = others.first().map_or(String::new(), |i| {
-            let (k, p_theta, decrease) = (self.k[*i], self.p_theta[*i], self.decrease[*i]);
-            format!("k = {k:?}, p_θ = {p_theta:?}: θ decreases by {decrease:e} rad, leaves at π, no self-intersection")
-        });
-        Claim {
-            id: "four_types".to_owned(),
-            place: PLACE.to_owned(),
-            statement: "Every trajectory with 1 ≤ k ≤ k3, p_θ > 0 is of one of the four types.".to_owned(),
-            evidence: Evidence::Direct(Test::None {
-                counterexamples: others.len() as u64,
-                cases: self.k.len() as u64,
-                example,
-            }),
-            note: format!(
-                "With a tolerance of {tolerance:?} rad for monotony. Between types ii and i the exit changes from 0 to \
-                 π through the pole, where θ has decreased by some 0.025 rad: with a smaller tolerance a thin fifth \
-                 type, leaving at π without self-intersection, appears. {}",
-                self.extent()
-            ),
+        let mut cases = Cases::default();
+        for i in 0..self.k.len() {
+            let (k, p_theta, decrease) = (self.k[i], self.p_theta[i], self.decrease[i]);
+            cases.add(self.types[i] == "none", || {
+                format!(
+                    "k = {k:?}, p_θ = {p_theta:?}: θ decreases by {decrease:e} rad, leaves at π, no self-intersection"
+                )
+            });
         }
+        let note = format!(
+            "With a tolerance of {tolerance:?} rad for monotony. Between types ii and i the exit changes from 0 to π through the pole, where \
+             θ has decreased by some 0.025 rad: with a smaller tolerance a thin fifth type, leaving at π without self-intersection, \
+             appears. {}",
+            self.extent()
+        );
+        let statement = "Every trajectory with 1 ≤ k ≤ k3, p_θ > 0 is of one of the four types.";
+        cases.claim("four_types", PLACE, statement, note)
     }
 }
 
@@ -601,21 +570,21 @@ fn beginning_claim(
     if table.bools("from_is_end_of_grid").map_err(unread)?[row] {
         return Ok(None);
     }
-    Ok(Some(Claim {
-        id: format!("type_{kind}_begins"),
-        place: PLACE.to_owned(),
-        statement: format!("Type {kind} begins at {name}."),
-        evidence: Evidence::Direct(Test::Equal {
-            printed: switch.0,
-            ours: k,
-            tolerance: error + switch.1 + smallest * smallest,
-            reason: format!(
-                "p_θ² for p_θ = {smallest:?}, by which t̄, the exit that decides, lies later than t1; and the error \
-                 of the end found"
-            ),
-        }),
-        note: format!("{name} is computed here for the smallest p_θ of the grid, as the root in k of the closed form."),
-    }))
+    let test = Test::Equal {
+        printed: switch.0,
+        ours: k,
+        tolerance: error + switch.1 + smallest * smallest,
+        reason: format!(
+            "p_θ² for p_θ = {smallest:?}, by which t̄, the exit that decides, lies later than t1; and the error of the end found"
+        ),
+    };
+    Ok(Some(claim(
+        &format!("type_{kind}_begins"),
+        PLACE,
+        format!("Type {kind} begins at {name}."),
+        Evidence::Direct(test),
+        format!("{name} is computed here for the smallest p_θ of the grid, as the root in k of the closed form."),
+    )))
 }
 
 fn example_claim(params: &Params, table: &Table) -> Result<Option<Claim>, NodeError> {
@@ -632,33 +601,28 @@ fn example_claim(params: &Params, table: &Table) -> Result<Option<Claim>, NodeEr
         ),
         _ => String::new(),
     };
-    let holds = visible.is_some();
-    let example = if holds { String::new() } else { format!("no fall by more than {tolerance:?} rad begins before") };
-    Ok(Some(Claim {
-        id: "not_monotone".to_owned(),
-        place: "section 5.2".to_owned(),
-        statement: format!("For k = {k:?}, p_θ = {p_theta:?} θ is not monotone on [0, t_f], t_f > 14."),
-        evidence: Evidence::Direct(Test::None { counterexamples: u64::from(!holds), cases: 1, example }),
-        note,
-    }))
+    let words = format!("no fall by more than {tolerance:?} rad begins before");
+    let statement = format!("For k = {k:?}, p_θ = {p_theta:?} θ is not monotone on [0, t_f], t_f > 14.");
+    Ok(Some(Cases::of([(visible.is_some(), words)]).claim("not_monotone", "section 5.2", statement, note)))
 }
 
 fn routes_agree(table: &Table) -> Result<Claim, NodeError> {
     let (difference, allowed) = (table.f64s("t1_difference").map_err(unread)?, table.f64s("allowed").map_err(unread)?);
     let worst = difference.iter().zip(allowed).map(|(difference, allowed)| difference / allowed);
-    Ok(Claim {
-        id: "routes_agree".to_owned(),
-        place: "all conjugate times of this experiment".to_owned(),
-        statement: "Closed form and integration give the same conjugate times.".to_owned(),
-        evidence: Evidence::Direct(Test::AtMost {
-            measured: worst.fold(0.0, f64::max),
-            tolerance: 1.0,
-            reason: "in units of what each row allows: a hundred times the accuracy asked for (1e-12), or the closed \
-                     form's own bound next to a vertical tangent"
-                .to_owned(),
-        }),
-        note: String::new(),
-    })
+    let test = Test::AtMost {
+        measured: worst.fold(0.0, f64::max),
+        tolerance: 1.0,
+        reason: "in units of what each row allows: a hundred times the accuracy asked for (1e-12), or the closed form's own bound next to a \
+                 vertical tangent"
+            .to_owned(),
+    };
+    Ok(claim(
+        "routes_agree",
+        "all conjugate times of this experiment",
+        "Closed form and integration give the same conjugate times.",
+        Evidence::Direct(test),
+        "",
+    ))
 }
 
 #[cfg(test)]

@@ -8,12 +8,13 @@
 //! stretches it: between p_θ = 0.0008 and 0.001 for k = 0.1 it turns through 3 radians of θ.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
+use super::findings::{Cases, unread};
 use super::nodes::Nodes;
 use super::scenes::curves::curves;
 use super::scenes::more::Asked;
 use super::spin_branches::{
-    Branch, ask_for_branch, contact, cusp_inset, cusp_values, largest_route_difference, name_of, no_counterexample,
-    origins, other_half, routes_agree, turned, unread,
+    Branch, ask_for_branch, contact, cusp_inset, cusp_values, largest_route_difference, name_of, origins, other_half,
+    routes_agree, turned,
 };
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::Claim;
@@ -253,13 +254,10 @@ impl Definition for Fig7 {
                 let falls = curves(table, "index")?.iter().map(|curve| decrease(curve)).fold(0.0, f64::max);
                 cases.push((falls > 1e-6, format!("k = {k:?}: the largest decrease is {falls:e}")));
             }
-            claims.push(no_counterexample(
-                (
-                    "theta_not_monotone",
-                    "section 5.2.2",
-                    "For k < 1 the variable θ is not monotone (along some extremal, up to t1).",
-                ),
-                cases,
+            claims.push(Cases::of(cases).claim(
+                "theta_not_monotone",
+                "section 5.2.2",
+                "For k < 1 the variable θ is not monotone (along some extremal, up to t1).",
                 "",
             ));
         }
@@ -269,9 +267,7 @@ impl Definition for Fig7 {
                 let beyond = branch.t1[0] > PI && branch.t1[0] < 1.5 * PI && branch.phi[0] > FRAC_PI_2;
                 (beyond, format!("k = {:?}: t1 = {:?}, φ = {:?}", branch.k, branch.t1[0], branch.phi[0]))
             });
-            claims.push(no_counterexample(
-                ("cusp_stays_beyond_equator", "section 5.2.3", "For k < 1 the cusp does not cross the equator."),
-                cases,
+            claims.push(Cases::of(cases).claim("cusp_stays_beyond_equator", "section 5.2.3", "For k < 1 the cusp does not cross the equator.",
                 "For p_θ = 0 and k < 1, t1 solves l tan t = tanh(l t), l² = 1/k² − 1, which has its first root in (π, 3π/2) for every l: \
                  between the equator, reached as k → 0, and the round case.",
             ));

@@ -8,11 +8,12 @@
 //! is close to the start.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
+use super::findings::{Cases, claim};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
 use super::spin_branches::{
     Branch, ask_for_branch, ask_for_double_points, contact, cusp_values, double_point_values, double_points,
-    largest_route_difference, no_counterexample, routes_agree, switches, validate_panels,
+    largest_route_difference, routes_agree, switches, validate_panels,
 };
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
@@ -162,16 +163,15 @@ fn pole_claim(branches: &[Branch<'_>]) -> Claim {
     } else {
         Evidence::NotChecked { reason: "the scene has no k in [1, k1), or none in (k1, k̄)".to_owned() }
     };
-    Claim {
-        id: "first_pole".to_owned(),
-        place: "section 5.2.3".to_owned(),
-        statement: "For k > 1 the cusp first crosses the North pole (k = k1).".to_owned(),
+    claim(
+        "first_pole",
+        "section 5.2.3",
+        "For k > 1 the cusp first crosses the North pole (k = k1).",
         evidence,
-        note: "The text does not say which pole is North; φ is measured from the pole φ = 0, which is N in the figure. With p_φ(0) = −2 \
+        "The text does not say which pole is North; φ is measured from the pole φ = 0, which is N in the figure. With p_φ(0) = −2 \
                the extremals go first over φ = 0; the cusp is reached on the way back, after t1 = 3π/2 on the meridian, at the pole φ = \
-               π. It is φ = 0 for the other half, p_φ(0) = 2."
-            .to_owned(),
-    }
+               π. It is φ = 0 for the other half, p_φ(0) = 2.",
+    )
 }
 
 impl Definition for Fig8 {
@@ -267,25 +267,22 @@ impl Definition for Fig8 {
         }
         let mut claims = Vec::new();
         if branches.iter().any(|branch| branch.k < 1.0) {
-            claims.push(no_counterexample(
-                ("cusp_stays_beyond_equator", "section 5.2.3", "For k < 1 the cusp does not cross the equator."),
-                below,
+            claims.push(Cases::of(below).claim(
+                "cusp_stays_beyond_equator",
+                "section 5.2.3",
+                "For k < 1 the cusp does not cross the equator.",
                 "",
             ));
         }
         if branches.iter().any(|branch| branch.k >= 1.0 && branch.k < switches.k2) {
-            claims.push(no_counterexample(
-                ("pole_then_equator", "section 5.2.3", "For k > 1 the cusp first crosses a pole (k = k1), then the equator (k = k̄)."),
-                above,
+            claims.push(Cases::of(above).claim("pole_then_equator", "section 5.2.3", "For k > 1 the cusp first crosses a pole (k = k1), then the equator (k = k̄).",
                 "It moves along the meridian of the start: θ = π before k1, θ = 0 after it; φ > π/2 before k̄, φ < π/2 after it. The crossing of the \
                  equator is at the start itself. k1 = 3/√8 and k̄ = 2/√3 in the limit p_θ → 0.",
             ));
         }
         claims.push(pole_claim(&branches));
         if !loops.is_empty() {
-            claims.push(no_counterexample(
-                ("self_intersections", "section 5.2.3", "For k ≥ k̄ the conjugate locus has self-intersections (and not before)."),
-                loops,
+            claims.push(Cases::of(loops).claim("self_intersections", "section 5.2.3", "For k ≥ k̄ the conjugate locus has self-intersections (and not before).",
                 "Of one branch, p_θ ≥ 0, with itself; those of p_θ ≤ 0 are their mirror images. Fig. 5 examines more values of k.",
             ));
         }

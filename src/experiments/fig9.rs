@@ -9,7 +9,7 @@
 //! by 8e-4; the arctangents of section 2.4 need their quadrant, as both cases start at g = 0.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{largest, unread};
+use super::findings::{claim, largest, unread, value};
 use super::nodes::Nodes;
 use super::scenes::attitude::{CASES, SPHERE_VIEW, Trajectory, each, plane};
 use crate::contract::accuracy::Accuracy;
@@ -410,7 +410,13 @@ impl Definition for Fig9 {
             let reason = "what two integrations to rounding give over a few turns".to_owned();
             let statement = "Two independent routes give the same conjugate times, on SO(3) and on the projection.";
             let test = Test::AtMost { measured, tolerance, reason };
-            claims.push(claim("routes_agree", "all conjugate times of this experiment", statement, test, ""));
+            claims.push(claim(
+                "routes_agree",
+                "all conjugate times of this experiment",
+                statement,
+                Evidence::Direct(test),
+                "",
+            ));
         }
         Ok(claims)
     }
@@ -492,11 +498,6 @@ fn given(name: &str) -> String {
 fn read(tables: &Tables, table: &str, column: &str) -> Result<f64, NodeError> {
     let values = tables.get(table).map_err(unread)?.f64s(column).map_err(unread)?;
     values.first().copied().ok_or_else(|| NodeError::new(format!("{table}: no row")))
-}
-
-fn value(name: &str, (value, error): (f64, f64), unit: &str, meaning: &str, route: &str) -> NamedValue {
-    let [name, unit, meaning, route] = [name, unit, meaning, route].map(str::to_owned);
-    NamedValue { name, value, unit, meaning, route, error }
 }
 
 fn time_values(params: &Params, tables: &Tables, values: &mut Vec<NamedValue>) -> Result<(), NodeError> {
@@ -610,16 +611,6 @@ fn route_difference(seconds: &[&Table]) -> Result<(f64, f64), NodeError> {
     Ok((difference, allowed))
 }
 
-fn claim(id: &str, place: &str, statement: impl Into<String>, test: Test, note: impl Into<String>) -> Claim {
-    Claim {
-        id: id.to_owned(),
-        place: place.to_owned(),
-        statement: statement.into(),
-        evidence: Evidence::Direct(test),
-        note: note.into(),
-    }
-}
-
 fn time_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) -> Result<(), NodeError> {
     for (i, case) in params.scene.start.cases.iter().enumerate() {
         let Some(known) = printed(params, case) else { continue };
@@ -635,7 +626,7 @@ fn time_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) -> Res
             (printed / ours - 1.0).abs(),
         );
         let statement = format!("The first conjugate time of case {number} is τ = {printed}.");
-        claims.push(claim(&format!("tau_case_{number}"), CAPTION, statement, test, note));
+        claims.push(claim(&format!("tau_case_{number}"), CAPTION, statement, Evidence::Direct(test), note));
         claims.push(rounding_claim(number, known, change));
     }
     equal_times_claims(params, tables, claims)
@@ -654,7 +645,7 @@ fn rounding_claim(number: usize, known: &PrintedCase, change: f64) -> Claim {
         let statement =
             format!("The printed τ of case {number} belongs to a start that is printed with the same digits of Φ2.");
         let note = "So the rounding of Φ2 could explain this τ; but the projected curve, p1 and h = 1 as printed give a Φ2 with our τ.";
-        claim(&format!("tau_case_{number}_by_rounding"), BEYOND, statement, test, note)
+        claim(&format!("tau_case_{number}_by_rounding"), BEYOND, statement, Evidence::Direct(test), note)
     } else {
         let test = Test::AtMost {
             measured: known.phi2,
@@ -664,7 +655,7 @@ fn rounding_claim(number: usize, known: &PrintedCase, change: f64) -> Claim {
         let statement =
             format!("No start that is printed with the same digits of Φ2 as case {number} has the τ printed for it.");
         let note = "So rounding of the start does not explain this τ; it is unexplained.";
-        claim(&format!("tau_case_{number}_not_by_rounding"), BEYOND, statement, test, note)
+        claim(&format!("tau_case_{number}_not_by_rounding"), BEYOND, statement, Evidence::Direct(test), note)
     }
 }
 
@@ -690,7 +681,7 @@ fn equal_times_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>)
          of the printed starts."
     );
     let test = Test::Equal { printed, ours, tolerance, reason };
-    claims.push(claim("times_differ", DERIVED, statement, test, note));
+    claims.push(claim("times_differ", DERIVED, statement, Evidence::Direct(test), note));
     let test = Test::AtMost {
         measured: ours,
         tolerance: 3.0 * momenta,
@@ -698,7 +689,7 @@ fn equal_times_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>)
     };
     let statement = "Both cases have the same first conjugate time, up to the rounding of their starts.";
     let note = "The start exactly on the curve's energy level has τ = tau_level, whatever k, K and Φ1 are.";
-    claims.push(claim("times_equal", BEYOND, statement, test, note));
+    claims.push(claim("times_equal", BEYOND, statement, Evidence::Direct(test), note));
     Ok(())
 }
 
@@ -726,7 +717,7 @@ fn projection_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) 
         let statement = "Both cases project on the curve with p_x = 1.1, p_y = 0.3155946, x = 0, y = arccos √0.1.";
         let note = "The largest difference of x, y, p_x, p_y at the start is that of p_x in case 1. y is meant mod π: section 2.4 with the \
                     right quadrant gives y − π, which (9) does not notice.";
-        claims.push(claim("same_curve", PLACE, statement, test, note));
+        claims.push(claim("same_curve", PLACE, statement, Evidence::Direct(test), note));
     }
     let test = Test::Equal {
         printed: 1.0,
@@ -735,7 +726,13 @@ fn projection_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) 
         reason: "one unit of the last printed digit of p_y, 1e-7, times ∂h/∂p_y = 0.39".to_owned(),
     };
     let note = "h = 1 needs p_y = 0.31559468: the printed number is cut, not rounded.";
-    claims.push(claim("energy_level", PLACE, "This curve lies on the energy level h = 1.", test, note));
+    claims.push(claim(
+        "energy_level",
+        PLACE,
+        "This curve lies on the energy level h = 1.",
+        Evidence::Direct(test),
+        note,
+    ));
     let t1 = curve("t1")?;
     let test = Test::Equal {
         printed: ARTICLE_T1,
@@ -749,7 +746,7 @@ fn projection_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) 
         (ARTICLE_T1 / t1 - 1.0).abs()
     );
     let statement = "The first conjugate time of this curve is approximately 5.4177.";
-    claims.push(claim("t1_projected", PLACE, statement, test, note));
+    claims.push(claim("t1_projected", PLACE, statement, Evidence::Direct(test), note));
     Ok(())
 }
 

@@ -5,7 +5,7 @@
 //! cases have no such ratio and are not drawn.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::unread;
+use super::findings::{claim, unread, value};
 use super::nodes::Nodes;
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
@@ -153,18 +153,11 @@ impl Definition for Every {
             wrong += table.ints("wrong_forms").map_err(unread)?.iter().sum::<i64>();
             refused += table.ints("refused").map_err(unread)?.iter().sum::<i64>();
         }
-        let value = |name: &str, value: f64, meaning: &str| NamedValue {
-            name: name.to_owned(),
-            value,
-            unit: "1".to_owned(),
-            meaning: meaning.to_owned(),
-            route: "counted".to_owned(),
-            error: 0.0,
-        };
+        let count = |name: &str, count: f64, meaning: &str| value(name, (count, 0.0), "1", meaning, "counted");
         Ok(vec![
-            value("statements", statements as f64, "statements of the article that have a check"),
-            value("wrong_forms", wrong as f64, "forms of them that are wrong on purpose"),
-            value("wrong_forms_refused", refused as f64, "of these, those that the same check refused"),
+            count("statements", statements as f64, "statements of the article that have a check"),
+            count("wrong_forms", wrong as f64, "forms of them that are wrong on purpose"),
+            count("wrong_forms_refused", refused as f64, "of these, those that the same check refused"),
         ])
     }
 
@@ -188,14 +181,13 @@ impl Definition for Every {
                 }
             }
         }
-        claims.push(Claim {
-            id: "no_wrong_form_survives".to_owned(),
-            place: "not in the article: how statements are checked".to_owned(),
-            statement: "Every form that is wrong on purpose is refused by the check that accepts the claimed one."
-                .to_owned(),
-            evidence: Evidence::Direct(Test::None { counterexamples: survivors, cases, example }),
-            note: String::new(),
-        });
+        claims.push(claim(
+            "no_wrong_form_survives",
+            "not in the article: how statements are checked",
+            "Every form that is wrong on purpose is refused by the check that accepts the claimed one.",
+            Evidence::Direct(Test::None { counterexamples: survivors, cases, example }),
+            "",
+        ));
         Ok(claims)
     }
 }

@@ -8,7 +8,7 @@
 //! Hard spots: starts near turning points and `ξ1` near 1, where t1 M/K climbs from 2 to nearly 4 within a phase of order 1/K.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{Cases, largest_route_difference, quantities, routes_agree, unread};
+use super::findings::{Cases, claim, largest_route_difference, named, quantities, routes_agree, unread, value};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
@@ -293,9 +293,8 @@ impl Definition for Theorem {
         let formulas = quantities(tables.get("equator-conjugate-point").map_err(unread)?)?;
         values.extend(formulas.into_iter().filter(|value| value.name == "t_star"));
         let grid = Grid::read(params, tables)?;
-        let mut add = |name: &str, value: f64, error: f64, unit: &str, meaning: &str, route: &str| {
-            let (name, unit, meaning, route) = (name.to_owned(), unit.to_owned(), meaning.to_owned(), route.to_owned());
-            values.push(NamedValue { name, value, unit, meaning, route, error });
+        let mut add = |name: &str, number: f64, error: f64, unit: &str, meaning: &str, route: &str| {
+            values.push(value(name, (number, error), unit, meaning, route));
         };
         let closed = "closed form, equation (15) without poles";
         add("grid_smallest_ratio", grid.smallest, RATIO_ERROR, "1", "smallest t1 M/K of the grid", closed);
@@ -325,17 +324,7 @@ impl Definition for Theorem {
     fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
         let grid = Grid::read(params, tables)?;
         let values = Self::values(params, tables)?;
-        let value = |name: &str| {
-            let found = values.iter().find(|value| value.name == name).map(|value| value.value);
-            found.ok_or_else(|| NodeError::new(format!("no value {name}")))
-        };
-        let claim = |id: &str, place: &str, statement: &str, evidence: Evidence, note: &str| Claim {
-            id: id.to_owned(),
-            place: place.to_owned(),
-            statement: statement.to_owned(),
-            evidence,
-            note: note.to_owned(),
-        };
+        let value = |name: &str| named(&values, name).map(|found| found.value);
         let at_most = |measured: f64, tolerance: f64, reason: &str| Test::AtMost {
             measured,
             tolerance,
@@ -392,7 +381,7 @@ impl Definition for Theorem {
                     inside: grid.beyond_late.clone().test(),
                     outside: grid.beyond_early.clone().test(),
                 },
-                &format!(
+                format!(
                     "For t > 0 alone the interval of Lemma 3.6 is (2K, 4K − ψ0], which is longer than 3K for ψ0 < K. Example: h = {h:?}, y0 = \
                      {y0:?}, ξ1 = {xi1:?} on this body has t1 M/K = {:.6}.",
                     value("counterexample_ratio")?
@@ -539,21 +528,17 @@ fn by_integration_allowed(params: &Params, tables: &Tables) -> Result<f64, NodeE
 
 /// Steps towards the separatrix, beyond δ = 1e-3, over which t1 does not grow.
 fn unbounded(params: &Params, tables: &Tables) -> Result<Test, NodeError> {
-    let (mut counterexamples, mut cases, mut example) = (0, 0, String::new());
+    let mut growing = Cases::default();
     for table in part_2_tables(params, tables, "conjugate-locus")? {
         let (delta, t1) = (table.f64s("delta").map_err(unread)?, table.f64s("t1").map_err(unread)?);
         for row in 1..table.rows() {
             let (far, near) = if delta[row] < delta[row - 1] { (row, row - 1) } else { (row - 1, row) };
             if delta[near] < 1e-3 {
-                cases += 1;
-                if t1[far] <= t1[near] {
-                    counterexamples += 1;
-                    example = format!("δ = {:?}: t1 = {:?}", delta[far], t1[far]);
-                }
+                growing.add(t1[far] <= t1[near], || format!("δ = {:?}: t1 = {:?}", delta[far], t1[far]));
             }
         }
     }
-    Ok(Test::None { counterexamples, cases, example })
+    Ok(growing.test())
 }
 
 #[cfg(test)]
