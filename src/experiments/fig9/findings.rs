@@ -79,17 +79,17 @@ fn time_values(params: &Params, tables: &Tables, values: &mut Vec<NamedValue>) -
         for (column, symbol, which) in [("t1", "tau", "first"), ("t2", "tau2", "second")] {
             let meaning = format!("{which} conjugate time on SO(3) of {what}");
             let time = of(column)?;
-            values.push(value(&format!("{symbol}_{name}"), (time, error * time), "time", &meaning, route));
+            values.push(value(format!("{symbol}_{name}"), (time, error * time), "time", meaning, route));
         }
         let rounding = 8.0 * f64::EPSILON;
         let (h, g) = (of("h")?, of("G")?);
         let from = "the momentum in the body";
-        values.push(value(&format!("h_{name}"), (h, rounding * h), "energy", &format!("energy of {what}"), from));
+        values.push(value(format!("h_{name}"), (h, rounding * h), "energy", format!("energy of {what}"), from));
         values.push(value(
-            &format!("G_{name}"),
+            format!("G_{name}"),
             (g, rounding * g),
             "momentum",
-            &format!("size of the momentum of {what}"),
+            format!("size of the momentum of {what}"),
             from,
         ));
         Ok(())
@@ -120,7 +120,7 @@ fn projection_values(params: &Params, tables: &Tables, values: &mut Vec<NamedVal
     let route = "closed form; second route: power series with a Jacobi field";
     let mut point = |table: &str, name: &str, what: &str| -> Result<(), NodeError> {
         let (t1, error) = (read(tables, table, "t1")?, read(tables, table, "t1_error")?);
-        values.push(value(name, (t1, error * t1), "time", &format!("first conjugate time of {what}"), route));
+        values.push(value(name, (t1, error * t1), "time", format!("first conjugate time of {what}"), route));
         Ok(())
     };
     point(&given(POINT), "t1_projected", "the reduced extremal as given")?;
