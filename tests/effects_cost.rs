@@ -243,6 +243,8 @@ const SCENES: &[Scene] = &[
     of("fig4/switch-points-by-integration", SPIN_CONJUGATE),
     of("fig5/conjugate-locus-by-integration", SPIN_CONJUGATE),
     of("fig5/double-points-by-integration", SPIN_CONJUGATE),
+    // Returns of the base flow, then turning points up to the conjugate time.
+    scene("fig6/monotone-theta", 9, None, true),
     scene("fig6/theta-turning-points", 6, Some(0), true),
     // Conjugate times for some trajectories, exits of the base flow for all.
     scene("fig6/trajectory-types", 9, None, true),

@@ -8,8 +8,11 @@
 //! The hard spot: work per coefficient differs. So the multiplications in the series are counted too, by running the equations on
 //! numbers that count; what observers do (an event's own series, roots) is counted apart.
 
+mod judges;
+
+use self::judges::JUDGES;
 use super::definition::{Definition, Experiment, Measured, NOT_IN_ARTICLE, findings_kind, picture_kind};
-use super::findings::{Cases, unread};
+use super::findings::{Cases, unread, value};
 use super::nodes::Nodes;
 use super::three_problems::{
     self, Measurement, PROBLEMS, ROTATION_GROUP, ROTATION_GROUP_LEAVES, RotationGroupStarts, SERRET_ANDOYER,
@@ -91,18 +94,36 @@ pub const EXPERIMENT: Experiment = Experiment::of::<Cost>();
 
 const PICTURE: Kind = picture_kind(
     "cost_of_effects-picture",
-    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/three_problems.rs", "plot", "table"],
+    &[
+        "experiments/cost_of_effects",
+        "experiments/definition.rs",
+        "experiments/findings.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/three_problems.rs",
+        "plot",
+        "table",
+    ],
 );
 const MEASURED_PICTURE: Kind = picture_kind(
     "cost_of_effects-measured-picture",
-    &["experiments/cost_of_effects.rs", "experiments/definition.rs", "experiments/findings.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/three_problems.rs", "plot", "table"],
+    &[
+        "experiments/cost_of_effects",
+        "experiments/definition.rs",
+        "experiments/findings.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/three_problems.rs",
+        "plot",
+        "table",
+    ],
 );
 const FINDINGS: Kind = findings_kind(
     "cost_of_effects-findings",
     &[
         "contract/claim.rs",
         "contract/value.rs",
-        "experiments/cost_of_effects.rs",
+        "experiments/cost_of_effects",
         "experiments/definition.rs",
         "experiments/findings.rs",
         "experiments/scenes",
@@ -135,7 +156,13 @@ impl Definition for Cost {
         let spin = CostOfEffects { problem: params.spin(), asked: asked.clone(), samples };
         nodes.add(SPIN, &[], spin, &[], &three_problems::origins(SPIN, SPIN_LEAVES))?;
         let reduced = CostOfEffects { problem: params.serret_andoyer(), asked: asked.clone(), samples };
-        nodes.add(SERRET_ANDOYER, &[], reduced, &[], &three_problems::origins(SERRET_ANDOYER, SERRET_ANDOYER_LEAVES))?;
+        nodes.add(
+            SERRET_ANDOYER,
+            &[],
+            reduced,
+            &[],
+            &three_problems::origins(SERRET_ANDOYER, SERRET_ANDOYER_LEAVES),
+        )?;
         let group = CostOfEffects { problem: params.rotation_group(), asked, samples };
         nodes.add(ROTATION_GROUP, &[], group, &[], &three_problems::origins(ROTATION_GROUP, ROTATION_GROUP_LEAVES))?;
         Ok(())
@@ -170,10 +197,9 @@ impl Definition for Cost {
             let counts = Counts::read(tables.get(problem).map_err(unread)?)?;
             let last = counts.last_accuracy();
             let base = counts.row("base", last)?;
-            let mut add = |name: String, value: f64, meaning: String| {
-                let (unit, route) = ("1".to_owned(), "counted".to_owned());
+            let mut add = |name: String, ratio: f64, meaning: String| {
                 // A quotient of two integers, rounded once.
-                values.push(NamedValue { name, value, unit, meaning, route, error: f64::EPSILON * value });
+                values.push(value(name, (ratio, f64::EPSILON * ratio), "1", meaning, "counted"));
             };
             let prefix = problem.replace('-', "_");
             for (set, words) in [
@@ -189,7 +215,8 @@ impl Definition for Cost {
             }
             let event = counts.row("conjugate", last)?;
             let isolated = counts.of("root_isolations", event)? / counts.of("event_evaluations", event)?;
-            let meaning = format!("{title}: part of the steps on which roots of the event had to be isolated, at {last:e}");
+            let meaning =
+                format!("{title}: part of the steps on which roots of the event had to be isolated, at {last:e}");
             add(format!("{prefix}_isolated"), isolated, meaning);
         }
         Ok(values)
@@ -226,7 +253,7 @@ impl Definition for Cost {
             }
         }
         let place = "not in the article: how this program computes";
-        Ok(tests.into_iter().map(|(id, statement, cases)| cases.claim(id, place, statement)).collect())
+        Ok(tests.into_iter().map(|(id, statement, cases)| cases.claim(id, place, statement, "")).collect())
     }
 }
 
@@ -239,11 +266,7 @@ struct Counts<'t> {
 
 impl<'t> Counts<'t> {
     fn read(table: &'t Table) -> Result<Self, NodeError> {
-        Ok(Self {
-            table,
-            sets: table.texts("effects").map_err(unread)?,
-            asked: table.f64s("asked").map_err(unread)?,
-        })
+        Ok(Self { table, sets: table.texts("effects").map_err(unread)?, asked: table.f64s("asked").map_err(unread)? })
     }
 
     fn last_accuracy(&self) -> f64 {
@@ -263,82 +286,6 @@ impl<'t> Counts<'t> {
     fn per_start(&self, column: &str, row: usize) -> Result<f64, NodeError> {
         Ok(self.of(column, row)? / self.of("starts", row)?)
     }
-}
-
-/// Whether a row fails; none where the statement says nothing about it.
-type Judge = fn(&str, &Counts<'_>, usize) -> Result<Option<bool>, NodeError>;
-const JUDGES: [Judge; 5] = [unasked, larger_state, steered, disturbed, not_less];
-
-/// The number of columns in a set of effects.
-fn columns(problem: &str, set: &str) -> f64 {
-    match set.split("-column").next() {
-        Some("one") => 1.0,
-        Some("two") => 2.0,
-        Some("three") => 3.0,
-        Some("conjugate") if problem == ROTATION_GROUP => 2.0,
-        Some("conjugate") => 1.0,
-        _ => 0.0,
-    }
-}
-
-/// The counts that one set of effects asks for.
-const OWN: [(&str, &str); 6] = [
-    ("event_evaluations", "conjugate"),
-    ("root_isolations", "conjugate"),
-    ("roots_found", "conjugate"),
-    ("states_inside", "states-at-times"),
-    ("kept_coefficients", "series-kept"),
-    ("monitor_evaluations", "monitor"),
-];
-
-/// On SO(3) conjugate times are told apart, double ones too, by phases at states inside steps.
-fn reads_phases(problem: &str, set: &str, count: &str) -> bool {
-    problem == ROTATION_GROUP && set == "conjugate" && count == "states_inside"
-}
-
-fn unasked(problem: &str, counts: &Counts<'_>, row: usize) -> Result<Option<bool>, NodeError> {
-    let set = counts.sets[row].as_str();
-    let mut fault = columns(problem, set) == 0.0 && counts.of("tangent_evaluations", row)? != 0.0;
-    for (count, asked_by) in OWN {
-        fault |= set != asked_by && !reads_phases(problem, set, count) && counts.of(count, row)? != 0.0;
-    }
-    Ok(Some(fault))
-}
-
-fn larger_state(problem: &str, counts: &Counts<'_>, row: usize) -> Result<Option<bool>, NodeError> {
-    let (base, column) = match problem {
-        SPIN => (6.0, 3.0),
-        SERRET_ANDOYER => (5.0, 2.0),
-        _ => (3.0, 6.0),
-    };
-    let set = counts.sets[row].as_str();
-    let least = if set == "attitude" { 4.0 } else { base + columns(problem, set) * column };
-    Ok(Some(counts.of("state_dimension", row)? != least))
-}
-
-/// Whether steps and coefficients of the flow are not those of the base flow.
-fn other_steps(counts: &Counts<'_>, row: usize) -> Result<bool, NodeError> {
-    let base = counts.row("base", counts.asked[row])?;
-    let differs = |count: &str| Ok::<_, NodeError>(counts.of(count, row)? != counts.of(count, base)?);
-    Ok(differs("steps")? || differs("flow_evaluations")?)
-}
-
-fn steered(_: &str, counts: &Counts<'_>, row: usize) -> Result<Option<bool>, NodeError> {
-    if counts.sets[row].ends_with("not-steering") { other_steps(counts, row).map(Some) } else { Ok(None) }
-}
-
-fn disturbed(_: &str, counts: &Counts<'_>, row: usize) -> Result<Option<bool>, NodeError> {
-    let watches = ["series-kept", "states-at-times", "monitor"].contains(&counts.sets[row].as_str());
-    if watches { other_steps(counts, row).map(Some) } else { Ok(None) }
-}
-
-fn not_less(problem: &str, counts: &Counts<'_>, row: usize) -> Result<Option<bool>, NodeError> {
-    let set = counts.sets[row].as_str();
-    let own = OWN.iter().find(|(_, asked_by)| *asked_by == set).map(|(count, _)| *count);
-    let counted = own.or((columns(problem, set) > 0.0).then_some("tangent_evaluations"));
-    let Some(count) = counted else { return Ok(None) };
-    let base = counts.row("base", counts.asked[row])?;
-    Ok(Some(counts.of(count, row)? <= counts.of(count, base)?))
 }
 
 /// The rows of the figure, from above: set of effects and words.
@@ -399,7 +346,8 @@ fn counted_panel(title: &str, table: &Table, samples: usize, (least, most): (f64
     let beyond = |part: f64| most * libm::pow(most / least, part);
     let decade = |n: i32| (libm::pow(10.0, f64::from(n)), if n == 0 { "1".to_owned() } else { format!("10^{n}") });
     let decades = (0..=9).map(decade).filter(|(at, _)| *at <= most);
-    let x = Axis::new("count per start").log().fixed(least / libm::pow(most / least, 0.06), beyond(0.66)).ticks_at(decades);
+    let x =
+        Axis::new("count per start").log().fixed(least / libm::pow(most / least, 0.06), beyond(0.66)).ticks_at(decades);
     let y = rows_axis(&rows, -1.3);
     let mut panel = Panel::new(x, y).title(title.to_owned());
     for (i, (set, _)) in rows.iter().enumerate() {
@@ -422,13 +370,17 @@ fn counted_panel(title: &str, table: &Table, samples: usize, (least, most): (f64
         let row = counts.row(set, last)?;
         let ratio = counts.of("multiplications", row)? / counts.of("multiplications", base)?;
         let dimension = counts.of("state_dimension", row)?;
-        panel = panel
-            .mark(Text::new((beyond(0.24), i as f64), Side::Left, format!("{dimension}")))
-            .mark(Text::new((beyond(0.65), i as f64), Side::Left, format!("{ratio:.2}")));
+        panel = panel.mark(Text::new((beyond(0.24), i as f64), Side::Left, format!("{dimension}"))).mark(Text::new(
+            (beyond(0.65), i as f64),
+            Side::Left,
+            format!("{ratio:.2}"),
+        ));
     }
-    Ok(panel
-        .mark(Text::new((beyond(0.24), -0.9), Side::Left, "*n*"))
-        .mark(Text::new((beyond(0.65), -0.9), Side::Left, "mult.")))
+    Ok(panel.mark(Text::new((beyond(0.24), -0.9), Side::Left, "*n*")).mark(Text::new(
+        (beyond(0.65), -0.9),
+        Side::Left,
+        "mult.",
+    )))
 }
 
 fn measurements(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
@@ -520,7 +472,9 @@ mod tests {
         let (sets, roots) = (counts.texts("effects").unwrap(), counts.ints("roots_found").unwrap());
         assert!(sets.iter().zip(roots).all(|(set, roots)| *roots == if set == "conjugate" { 40 } else { 0 }));
         // Seven products against thirteen and nineteen (`geometry::spin::lift`): with all else between these and one column for three.
-        for (name, least, most) in [("spin_one_column", 1.5, 13.0 / 7.0 + 0.2), ("spin_two_columns", 2.2, 19.0 / 7.0 + 0.3)] {
+        for (name, least, most) in
+            [("spin_one_column", 1.5, 13.0 / 7.0 + 0.2), ("spin_two_columns", 2.2, 19.0 / 7.0 + 0.3)]
+        {
             let ratio = preview.value(name);
             assert!(ratio > least && ratio < most, "{name}: {ratio}");
         }
@@ -553,21 +507,14 @@ mod tests {
 
     #[test]
     fn wrong_configs_are_refused_by_key() {
-        let params = |from: &str, to: &str| {
-            let text = include_str!("../../experiments/cost_of_effects.toml").replace(from, to);
-            crate::contract::config::read::<Params>("f", &text).map_err(|error| error.to_string())
-        };
-        assert!(params("", "").is_ok());
-        for (from, to, key) in [
+        let cases = [
             ("1e-9, 1e-12", "1e-9, 1e-9", "accuracies[2]"),
             ("samples = 100", "samples = 0", "samples"),
             ("k = 0.8", "k = 0.0", "spin.k"),
             ("from = 0.11", "from = 0.09", "serret-andoyer.xi1"),
             ("directions = 40", "directions = 0", "rotation-group.directions"),
             ("repetitions = 25", "repetitions = 0", "measurement.repetitions"),
-        ] {
-            let refused = params(from, to).unwrap_err();
-            assert!(refused.contains(key), "{refused}");
-        }
+        ];
+        preview::refuses::<Params>(include_str!("../../experiments/cost_of_effects.toml"), &cases);
     }
 }

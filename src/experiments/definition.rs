@@ -14,7 +14,9 @@ use crate::contract::value::{Findings, NamedValue};
 use crate::contract::work::Work;
 use crate::experiments::nodes::Nodes;
 use crate::experiments::scenes::more::Asked;
+use crate::plot::error::PlotError;
 use crate::plot::picture::{Picture, Width};
+use crate::plot::render;
 use crate::table::{Table, Tables};
 use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
@@ -22,9 +24,9 @@ use serde::{Serialize, Serializer};
 
 /// The output of a picture node.
 pub const PICTURE_FILE: &str = "picture.svg";
-/// The other output of a picture node: the same page for LaTeX.
+/// Another output of a picture node, but of measurements: the same page for LaTeX.
 pub const PDF_FILE: &str = "picture.pdf";
-/// A picture node's third output: the values of its config, without comments, as a config that makes the same figure.
+/// And its third: the values of its config, without comments, as a config that makes the same figure.
 pub const CONFIG_FILE: &str = "config.toml";
 /// The output of a findings node.
 pub const FINDINGS_FILE: &str = "findings.json";
@@ -120,12 +122,14 @@ pub struct Request {
 /// The folder of measurements below the output folder: nothing in it is committed or compared.
 pub const MEASURED_FOLDER: &str = "measured";
 
-/// The kind of a picture node whose code is in `code`: the experiment's own file and the plot and table rooms.
+/// The kind of a picture node whose code is in `code`: the experiment's own file with all that it draws by, how experiments are read and
+/// combined with scenes, and the plot and table rooms; not what it plans by.
 pub const fn picture_kind(name: &'static str, code: &'static [&'static str]) -> Kind {
     Kind { name, summary: "the figure, drawn from its tables", code, measurement: false }
 }
 
-/// The kind of a findings node whose code is in `code`: the experiment's own file and the table room.
+/// The kind of a findings node whose code is in `code`: the experiment's own file with all that it reads values and claims by, how
+/// experiments are read and combined with scenes, the form of claims and values, and the table room; not what it plans or draws by.
 pub const fn findings_kind(name: &'static str, code: &'static [&'static str]) -> Kind {
     Kind { name, summary: "named values and evidence for the claims, read from the tables", code, measurement: false }
 }
@@ -238,7 +242,7 @@ fn plan<D: Definition>(id: &str, source: &ConfigSource, request: Request) -> Res
     let readers: [(&str, &str, Node); 2] = [
         (PICTURE_FILE, "svg", {
             let (id, params) = (id.to_owned(), params.clone());
-            let reader = Picturing { id: id.clone(), params, kind: D::PICTURE, draw: drawn::<D>, of: D::ID };
+            let reader = Picturing { id: id.clone(), params, kind: D::PICTURE, draw: drawn::<D>, of: Some(D::ID) };
             Node::new(Address::new(id, PICTURE_NODE), reader).map_err(undescribable)?.origin(CONFIG, "")
         }),
         (FINDINGS_FILE, "json", {
@@ -276,7 +280,7 @@ fn add_measurements<P: Serialize + Clone + Send + Sync + 'static>(
     let (nodes, tables) = nodes.finish();
     let undescribable = |error: manifest::NotDescribable| NodeError::new(error.to_string());
     let (name, params) = (id.to_owned(), params.clone());
-    let reader = Picturing { id: name, params, kind: measured.picture_kind, draw: measured.picture, of: "" };
+    let reader = Picturing { id: name, params, kind: measured.picture_kind, draw: measured.picture, of: None };
     let mut picture =
         Node::new(Address::new(id, MEASURED_PICTURE_NODE), reader).map_err(undescribable)?.origin(CONFIG, "");
     let mut export = |path: String, from: &Address, artifact: &str| {
@@ -320,8 +324,8 @@ struct Picturing<P> {
     params: P,
     kind: &'static Kind,
     draw: fn(&P, &Tables) -> Result<Picture, NodeError>,
-    /// The `kind` of configs; empty for a picture of measurements.
-    of: &'static str,
+    /// The `kind` of its configs, for the page and the config beside the figure; none for a picture of measurements, which has neither.
+    of: Option<&'static str>,
 }
 
 /// Where the leaves of a picture's parameters stand in its manifest.
@@ -354,15 +358,20 @@ impl<P: Serialize + Send + Sync> Compute for Picturing<P> {
         for (name, file) in inputs.iter() {
             picture.metadata.push((format!("table {name}"), file.logical.to_string()));
         }
-        let (svg, pdf) =
-            crate::plot::render::render_both(&picture).map_err(|error| NodeError::new(format!("drawing: {error}")))?;
-        let values = toml::to_string(&self.params).map_err(|error| NodeError::new(error.to_string()))?;
-        let config = format!("kind = {:?}\n{values}", self.of);
-        let artifacts = vec![
-            Artifact::opaque(PICTURE_FILE, svg),
-            Artifact::opaque(PDF_FILE, pdf),
-            Artifact::opaque(CONFIG_FILE, config.into_bytes()),
-        ];
+        let drawing = |error: PlotError| NodeError::new(format!("drawing: {error}"));
+        let artifacts = match self.of {
+            Some(kind) => {
+                let (svg, pdf) = render::render_both(&picture).map_err(drawing)?;
+                let values = toml::to_string(&self.params).map_err(|error| NodeError::new(error.to_string()))?;
+                let config = format!("kind = {kind:?}\n{values}");
+                vec![
+                    Artifact::opaque(PICTURE_FILE, svg),
+                    Artifact::opaque(PDF_FILE, pdf),
+                    Artifact::opaque(CONFIG_FILE, config.into_bytes()),
+                ]
+            }
+            None => vec![Artifact::opaque(PICTURE_FILE, render::render(&picture).map_err(drawing)?)],
+        };
         Ok(Product { artifacts, work: Work::default() })
     }
 }

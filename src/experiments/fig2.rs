@@ -7,16 +7,16 @@
 //! The article states no `φ0` for this figure: the config's is a choice.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::unread;
+use super::findings::{Cases, claim, named, unread, value};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
-use super::scenes::potential::{Member, member, members, potential_panel};
+use super::scenes::potential::{member, members, potential_panel};
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, Phi0Family, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
+use crate::effects::scene::{Effect, Inertia, Phi0Family, SERRET_ANDOYER, Scene, SerretAndoyerMetric};
 use crate::effects::serret_andoyer::geodesics::{EQUATOR, OSCILLATING, SEPARATRIX};
 use crate::effects::serret_andoyer::potential::{FAMILY, Potential, START};
 use crate::plot::picture::{Picture, Width};
@@ -59,8 +59,31 @@ const OWN: [Effect; 1] = [Effect::Potential];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig2>();
 
-const PICTURE: Kind = picture_kind("fig2-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig2.rs", "experiments/findings.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig2-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig2.rs", "experiments/findings.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig2-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/fig2.rs",
+        "experiments/findings.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "fig2-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/fig2.rs",
+        "experiments/findings.rs",
+        "table",
+    ],
+);
 
 struct Fig2;
 
@@ -82,7 +105,12 @@ impl Definition for Fig2 {
     }
 
     fn asked(params: &Params) -> Asked {
-        Asked::serret_andoyer(&params.scene, &OWN, Some(&params.scene.start.phi0.into()), Some(&params.scene.start.p_theta))
+        Asked::serret_andoyer(
+            &params.scene,
+            &OWN,
+            Some(&params.scene.start.phi0.into()),
+            Some(&params.scene.start.p_theta),
+        )
     }
 
     fn nodes(params: &Params, nodes: &mut Nodes) -> Result<(), NodeError> {
@@ -123,10 +151,8 @@ impl Definition for Fig2 {
     fn values(_: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
         let members = members(tables.get("potential").map_err(unread)?)?;
         let mut values = Vec::new();
-        let mut add = |name: &str, value: f64, relative: f64, meaning: &str, route: &str| {
-            let (name, meaning, route) = (name.to_owned(), meaning.to_owned(), route.to_owned());
-            let error = relative * f64::EPSILON * value;
-            values.push(NamedValue { name, value, unit: "1".to_owned(), meaning, route, error });
+        let mut add = |name: &str, number: f64, relative: f64, meaning: &str, route: &str| {
+            values.push(value(name, (number, relative * f64::EPSILON * number), "1", meaning, route));
         };
         let (separatrix, equator, start) =
             (member(&members, SEPARATRIX)?, member(&members, EQUATOR)?, member(&members, START)?);
@@ -145,32 +171,23 @@ impl Definition for Fig2 {
         let mut members = members(tables.get("potential").map_err(unread)?)?;
         members.sort_by(|a, b| a.p_theta.total_cmp(&b.p_theta));
         let values = Self::values(params, tables)?;
-        let value = |name: &str| {
-            let found = values.iter().find(|value| value.name == name).map(|value| value.value);
-            found.ok_or_else(|| NodeError::new(format!("no value {name}")))
-        };
-        let (mut pairs, mut falling, mut example) = (0, 0, String::new());
+        let value = |name: &str| named(&values, name).map(|found| found.value);
+        let mut growing = Cases::default();
         for pair in members.windows(2).filter(|pair| pair[1].p_theta > pair[0].p_theta) {
             for (low, high) in pair[0].points.iter().zip(&pair[1].points) {
-                pairs += 1;
-                if high.1 <= low.1 {
-                    falling += 1;
-                    example = format!("φ = {:?}: p_θ = {:?} and {:?}", low.0, pair[0].p_theta, pair[1].p_theta);
-                }
+                growing.add(high.1 <= low.1, || {
+                    format!("φ = {:?}: p_θ = {:?} and {:?}", low.0, pair[0].p_theta, pair[1].p_theta)
+                });
             }
         }
         let (low, high) = (value("p_theta_separatrix")?, value("p_theta_start")?);
-        let family: Vec<&Member> = members.iter().filter(|m| m.curve == FAMILY || m.curve == START).collect();
-        let wrong: Vec<&&Member> = family
-            .iter()
-            .filter(|m| (m.class == OSCILLATING) != (m.p_theta > low && m.p_theta <= high))
-            .collect();
-        let claim = |id: &str, statement: &str, test: Test| Claim {
-            id: id.to_owned(),
-            place: "section 3.3.3, before Figure 2".to_owned(),
-            statement: statement.to_owned(),
-            evidence: Evidence::Direct(test),
-            note: String::new(),
+        let family = members.iter().filter(|m| m.curve == FAMILY || m.curve == START);
+        let zone = Cases::of(family.map(|m| {
+            let as_said = (m.class == OSCILLATING) == (m.p_theta > low && m.p_theta <= high);
+            (as_said, format!("p_θ = {:?}: {}", m.p_theta, m.class))
+        }));
+        let claim = |id: &str, statement: &str, test: Test| {
+            claim(id, "section 3.3.3, before Figure 2", statement, Evidence::Direct(test), "")
         };
         let one = |ours: f64| Test::Equal {
             printed: 1.0,
@@ -179,11 +196,7 @@ impl Definition for Fig2 {
             reason: "rounding of a product of three".to_owned(),
         };
         Ok(vec![
-            claim(
-                "increasing",
-                "V(φ, p_θ) increases with p_θ at every φ.",
-                Test::None { counterexamples: falling, cases: pairs, example },
-            ),
+            claim("increasing", "V(φ, p_θ) increases with p_θ at every φ.", growing.test()),
             claim(
                 "separatrix",
                 "p_θ = B^(−1/2) describes the separatrix: its potential reaches 1 only at the edges.",
@@ -197,11 +210,7 @@ impl Definition for Fig2 {
             claim(
                 "start_zone",
                 "Oscillating trajectories from φ0 have p_θ in (B^(−1/2), (2/z(φ0))^(1/2)].",
-                Test::None {
-                    counterexamples: wrong.len() as u64,
-                    cases: family.len() as u64,
-                    example: wrong.first().map_or(String::new(), |m| format!("p_θ = {:?}: {}", m.p_theta, m.class)),
-                },
+                zone.test(),
             ),
         ])
     }

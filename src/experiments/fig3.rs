@@ -8,18 +8,20 @@
 //! fronts from all directions, stretched by `e^(Mt)` there; and their self-crossings, which are found from the fronts alone.
 //! The article does not say where its extremals start: the config's starts are a choice.
 
+mod claims;
+
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{largest_route_difference, routes_agree, unread};
+use super::findings::{largest_route_difference, unread, value};
 use super::nodes::Nodes;
-use super::scenes::more::Asked;
 use super::scenes::curves::{curves, minus, mirrored};
+use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
-use crate::contract::claim::{Claim, Evidence, Test};
+use crate::contract::claim::Claim;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::sweep::Sweep;
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, Phi0Start, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
+use crate::effects::scene::{Effect, Inertia, Phi0Start, SERRET_ANDOYER, Scene, SerretAndoyerMetric};
 use crate::effects::serret_andoyer::by_integration::{self, ConjugatePointsByIntegration};
 use crate::effects::serret_andoyer::conjugate_locus::{ConjugateLocus, Spacing};
 use crate::effects::serret_andoyer::cut_locus::CutLocus;
@@ -127,8 +129,31 @@ const OWN: [Effect; 4] = [Effect::ConjugateLocus, Effect::CutLocus, Effect::Wave
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig3>();
 
-const PICTURE: Kind = picture_kind("fig3-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig3.rs", "experiments/findings.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig3-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/fig3.rs", "experiments/findings.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig3-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/fig3",
+        "experiments/findings.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "fig3-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/fig3",
+        "experiments/findings.rs",
+        "table",
+    ],
+);
 
 struct Fig3;
 
@@ -214,7 +239,8 @@ impl Definition for Fig3 {
         let fronts = params.scene.asks_for(Effect::WaveFront);
         let strip = STRIP_MM * rows;
         let height = strip + if fronts { WHOLE_MM } else { 0.0 };
-        let mut picture = Picture::new(Width::Double, height + LEGEND_MM, "Conjugate and cut loci of the Serret-Andoyer metric");
+        let mut picture =
+            Picture::new(Width::Double, height + LEGEND_MM, "Conjugate and cut loci of the Serret-Andoyer metric");
         let mut cells = Vec::new();
         for (i, phi0) in starts.iter().enumerate() {
             let top = STRIP_MM * i as f64 / height;
@@ -234,15 +260,9 @@ impl Definition for Fig3 {
     fn values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
         let mut values = Vec::new();
         for (i, phi0) in params.scene.start.phi0.values().into_iter().enumerate() {
-            let mut add = |name: &str, value: f64, error: f64, unit: &str, meaning: &str, route: &str| {
-                values.push(NamedValue {
-                    name: format!("{name}_{}", i + 1),
-                    value,
-                    unit: unit.to_owned(),
-                    meaning: format!("start φ0 = {phi0:?}: {meaning}"),
-                    route: route.to_owned(),
-                    error,
-                });
+            let mut add = |name: &str, number: f64, error: f64, unit: &str, meaning: &str, route: &str| {
+                let (name, meaning) = (format!("{name}_{}", i + 1), format!("start φ0 = {phi0:?}: {meaning}"));
+                values.push(value(name, (number, error), unit, meaning, route));
             };
             if params.scene.asks_for(Effect::ConjugateLocus) {
                 let locus = Locus::read(tables.get(&name("conjugate-locus", phi0)).map_err(unread)?)?;
@@ -260,7 +280,10 @@ impl Definition for Fig3 {
             if params.scene.asks_for(Effect::WaveFront) {
                 let crossings = first_crossings(params, tables, phi0)?;
                 let worst = crossings.iter().map(|c| c.distance).fold(0.0, f64::max);
-                let meaning = format!("largest distance of a front's first self-crossing from the cut ray, {} fronts", crossings.len());
+                let meaning = format!(
+                    "largest distance of a front's first self-crossing from the cut ray, {} fronts",
+                    crossings.len()
+                );
                 add("largest_crossing_distance", worst, CROSSING_ERROR, "1", &meaning, "Newton's method on the front");
             }
         }
@@ -272,18 +295,7 @@ impl Definition for Fig3 {
     }
 
     fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
-        let mut claims = Vec::new();
-        if params.scene.asks_for(Effect::ConjugateLocus) {
-            claims.extend(locus_claims(params, tables)?);
-            claims.push(routes_agree(&second_routes(params, tables)?)?);
-        }
-        if params.scene.asks_for(Effect::CutLocus) {
-            claims.extend(return_claims(params, tables)?);
-        }
-        if params.scene.asks_for(Effect::WaveFront) {
-            claims.push(crossing_claim(params, tables)?);
-        }
-        Ok(claims)
+        claims::claims(params, tables)
     }
 }
 
@@ -436,9 +448,8 @@ fn strip_panel(params: &Params, tables: &Tables, phi0: f64) -> Result<Panel, Nod
 /// One start: the whole fronts, far beyond the strip.
 fn whole_panel(params: &Params, tables: &Tables, phi0: f64) -> Result<Panel, NodeError> {
     let half_width = params.scene.metric.half_width();
-    let mut panel =
-        Panel::new(Axis::new("*θ*").unit("rad").pi_ticks(), Axis::new("*φ*").unit("length"))
-            .title(format!("whole fronts, *φ*_0 = {}", minus(phi0)));
+    let mut panel = Panel::new(Axis::new("*θ*").unit("rad").pi_ticks(), Axis::new("*φ*").unit("length"))
+        .title(format!("whole fronts, *φ*_0 = {}", minus(phi0)));
     for edge in [-half_width, half_width] {
         panel = panel.mark(RuleLine::horizontal(Role::Reference, edge));
     }
@@ -462,15 +473,15 @@ fn with_fronts(
         let table = tables.get(&front_name("wave-front", phi0, *t)).map_err(unread)?;
         let (theta, phi) = (table.f64s("theta").map_err(unread)?, table.f64s("phi").map_err(unread)?);
         let points = theta.iter().copied().zip(phi.iter().copied()).collect();
-        let mut curve = Curve::new(Role::WaveFront, points).tone(LIGHTEST * i as f64 / last).legend(format!("front, *t* = {t}"));
+        let mut curve =
+            Curve::new(Role::WaveFront, points).tone(LIGHTEST * i as f64 / last).legend(format!("front, *t* = {t}"));
         if labels {
             curve = curve.label(DirectLabel::new(format!("*t* = {t}")).at(At::Fraction(0.03)).side(Side::Above));
         }
         panel = panel.mark(curve);
     }
     let crossings = first_crossings(params, tables, phi0)?;
-    let points: Vec<(f64, f64)> =
-        crossings.iter().flat_map(|c| [(c.theta, c.phi), (-c.theta, c.phi)]).collect();
+    let points: Vec<(f64, f64)> = crossings.iter().flat_map(|c| [(c.theta, c.phi), (-c.theta, c.phi)]).collect();
     if !points.is_empty() {
         panel = panel.mark(Points::new(Role::SelfIntersection, points).legend("self-crossings of the fronts"));
     }
@@ -513,190 +524,10 @@ fn caption(params: &Params, tables: &Tables) -> Result<String, NodeError> {
     Ok(text)
 }
 
-fn claim(id: &str, place: &str, statement: &str, evidence: Evidence, note: &str) -> Claim {
-    Claim {
-        id: id.to_owned(),
-        place: place.to_owned(),
-        statement: statement.to_owned(),
-        evidence,
-        note: note.to_owned(),
-    }
-}
-
-fn none(found: &[String], cases: usize) -> Test {
-    Test::None {
-        counterexamples: found.len() as u64,
-        cases: cases as u64,
-        example: found.first().cloned().unwrap_or_default(),
-    }
-}
-
-fn locus_claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
-    let half_width = params.scene.metric.half_width();
-    let (mut inward, mut reversed, mut beyond, mut steps) = (Vec::new(), Vec::new(), 0.0_f64, 0);
-    let (mut on_equator, mut below) = ((Vec::new(), 0), (Vec::new(), 0));
-    for phi0 in params.scene.start.phi0.values() {
-        let locus = Locus::read(tables.get(&name("conjugate-locus", phi0)).map_err(unread)?)?;
-        let at = |row: usize| format!("φ0 = {phi0:?}, branch {}, δ = {:?}", locus.branch[row], locus.delta[row]);
-        // Rows run along the locus, from one asymptote to the other: φ must grow all the way.
-        for row in 1..locus.phi.len() {
-            steps += 1;
-            if locus.phi[row] < locus.phi[row - 1] {
-                reversed.push(at(row));
-            }
-            let towards_cusp = row <= locus.cusp;
-            if (locus.theta[row] < locus.theta[row - 1]) != towards_cusp {
-                inward.push(at(row));
-            }
-        }
-        beyond = beyond.max((locus.phi[locus.cusp] + phi0).abs());
-        let ascending = 0..locus.cusp;
-        let side = if phi0 == 0.0 { &mut on_equator } else { &mut below };
-        if phi0 <= 0.0 {
-            side.1 += ascending.len();
-            side.0.extend(ascending.filter(|row| locus.phi[*row] >= 0.0).map(at));
-        }
-    }
-    let theorem = "Theorem 3.24";
-    let mut claims = vec![
-        claim(
-            "two_branches",
-            theorem,
-            "Each component consists of two smooth branches that run from the cusp to θ = ±∞.",
-            Evidence::Direct(none(&inward, steps)),
-            "Along the locus θ falls to the cusp and grows beyond it.",
-        ),
-        claim(
-            "parametrised",
-            "proof of Theorem 3.24",
-            "φ at the conjugate point is monotone along the locus, so that p_θ parametrises each branch.",
-            Evidence::Direct(none(&reversed, steps)),
-            "",
-        ),
-        claim(
-            "cusp",
-            theorem,
-            "The cusp of each component lies on the line φ = −φ0.",
-            Evidence::Direct(Test::AtMost {
-                measured: beyond,
-                tolerance: 1e-14,
-                reason: "rounding of a place of size 1".to_owned(),
-            }),
-            "",
-        ),
-        claim(
-            "asymptotes",
-            theorem,
-            "The branches tend to the lines φ = ±K(k)/α.",
-            Evidence::Direct(asymptote_test(params, tables, half_width)?),
-            "The distance falls like √δ, δ = B p_θ² − 1, while θ grows like log(1/δ).",
-        ),
-    ];
-    if on_equator.1 > 0 && below.1 > 0 {
-        claims.push(claim(
-            "below_equator",
-            "proof of Theorem 3.24",
-            "On ascending extremals from −K(k)/α ≤ φ0 ≤ 0 the first conjugate point has φ < 0.",
-            Evidence::OnlyWhen {
-                condition: "φ0 = 0".to_owned(),
-                inside: none(&on_equator.0, on_equator.1),
-                outside: none(&below.0, below.1),
-            },
-            "The cusp lies at φ = −φ0 > 0, and so do the points near it.",
-        ));
-    }
-    Ok(claims)
-}
-
-/// The distance of both branches from the asymptotes falls at least like δ^0.4 over the last rows, where δ falls by a known factor.
-fn asymptote_test(params: &Params, tables: &Tables, half_width: f64) -> Result<Test, NodeError> {
-    let (mut found, mut cases) = (Vec::new(), 0);
-    for phi0 in params.scene.start.phi0.values() {
-        let locus = Locus::read(tables.get(&name("conjugate-locus", phi0)).map_err(unread)?)?;
-        let last = locus.phi.len() - 1;
-        let tail = (locus.cusp / 4).max(1);
-        for (end, before, sign) in [(0, tail, -1.0), (last, last - tail, 1.0)] {
-            let gap = |row: usize| half_width - sign * locus.phi[row];
-            cases += 1;
-            // (gap ratio)² against (δ ratio)^0.8 by squares only: δ falls by ≥ 10 in the tail of every sensible spacing.
-            let (fall, delta_fall) = (gap(end) / gap(before), locus.delta[end] / locus.delta[before]);
-            let fourth = fall * fall * fall * fall * fall;
-            if !(gap(end) > 0.0 && fourth <= delta_fall * delta_fall) {
-                found.push(format!("φ0 = {phi0:?}, δ = {:?}: K/α − |φ| = {:?}", locus.delta[end], gap(end)));
-            }
-        }
-    }
-    Ok(none(&found, cases))
-}
-
-fn return_claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
-    let (mut rising, mut concave, mut cases) = (Vec::new(), Vec::new(), 0);
-    for phi0 in params.scene.start.phi0.values() {
-        let table = tables.get(&name("cut-locus", phi0)).map_err(unread)?;
-        let column = |name: &str| table.f64s(name).map_err(unread);
-        let (p_theta, slope, bend) = (column("p_theta")?, column("slope")?, column("bend")?);
-        for row in 0..table.rows() {
-            cases += 1;
-            if slope[row] >= 0.0 {
-                rising.push(format!("p_θ = {:?}: slope {:?}", p_theta[row], slope[row]));
-            }
-            if bend[row] <= 0.0 {
-                concave.push(format!("p_θ = {:?}: bend {:?}", p_theta[row], bend[row]));
-            }
-        }
-    }
-    let place = "Proposition 3.23";
-    Ok(vec![
-        claim(
-            "return_decreases",
-            place,
-            "The first return Δθ(p_θ) decreases for B^(−1/2) < p_θ < A^(−1/2): the flow is tame.",
-            Evidence::Direct(none(&rising, cases)),
-            "",
-        ),
-        claim(
-            "return_convex",
-            place,
-            "The first return Δθ(p_θ) is strictly convex.",
-            Evidence::Direct(none(&concave, cases)),
-            "",
-        ),
-    ])
-}
-
-fn crossing_claim(params: &Params, tables: &Tables) -> Result<Claim, NodeError> {
-    let mut worst: f64 = 0.0;
-    let mut count = 0;
-    for phi0 in params.scene.start.phi0.values() {
-        for crossing in first_crossings(params, tables, phi0)? {
-            count += 1;
-            worst = worst
-                .max(crossing.distance)
-                .max(crossing.momentum_difference)
-                .max(crossing.half_period_difference / crossing.t);
-        }
-    }
-    let evidence = if count == 0 {
-        Evidence::NotChecked { reason: "no front of this config crosses itself".to_owned() }
-    } else {
-        Evidence::Direct(Test::AtMost {
-            measured: worst,
-            tolerance: 1e-12,
-            reason: "rounding of places of size 10, times the angle at which the front crosses itself".to_owned(),
-        })
-    };
-    Ok(claim(
-        "crossings",
-        "Corollary 3.3 ii; section 3.3.3",
-        "A wave front first crosses itself on the cut ray: both extremals have the same p_θ and meet at (Δθ(p_θ), −φ0) at t = T(p_θ)/2.",
-        evidence,
-        &format!("{count} crossings; the largest of distance from the ray, difference in p_θ and relative difference to T/2."),
-    ))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::claim::Evidence;
     use crate::experiments::preview;
 
     #[test]
@@ -741,18 +572,13 @@ mod tests {
 
     #[test]
     fn wrong_configs_are_refused_by_key() {
-        for (from, to, key) in [
+        let cases = [
             ("phi0 = [0.0, -0.75]", "phi0 = [0.0, -1.6]", "scene.start.phi0[1]"),
             ("smallest = 1e-8", "smallest = 0.5", "spacing.smallest"),
             ("t = [3.0,", "t = [-3.0,", "wave_front.t[0]"),
             ("turns = 3.5", "turns = 0.0", "picture.turns"),
             ("\"cut-locus\"", "\"attitude\"", "scene.effects[1]"),
-        ] {
-            let text = include_str!("../../experiments/fig3.toml");
-            assert!(text.contains(from));
-            let read = crate::contract::config::read::<Params>("f", &text.replace(from, to));
-            let refused = read.unwrap_err().to_string();
-            assert!(refused.contains(key), "{refused}");
-        }
+        ];
+        preview::refuses::<Params>(include_str!("../../experiments/fig3.toml"), &cases);
     }
 }

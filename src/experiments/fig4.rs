@@ -10,6 +10,7 @@
 //! geometrically.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
+use super::findings::{Cases, claim, unread, value};
 use super::nodes::{Nodes, TableRef};
 use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
@@ -20,14 +21,14 @@ use crate::contract::value::NamedValue;
 use crate::effects::arithmetic::step_error;
 use crate::effects::conjugate_point_versus_k::{self, ConjugatePointVersusK};
 use crate::effects::conjugate_point_versus_k_by_integration::{self, ConjugatePointVersusKByIntegration};
-use crate::effects::scene::{Effect, EquatorStart, Scene, SpinMetric, SPIN};
+use crate::effects::scene::{Effect, EquatorStart, SPIN, Scene, SpinMetric};
 use crate::effects::switch_points::{POLE, SwitchPoints};
 use crate::effects::switch_points_by_integration::{self, SwitchPointsByIntegration};
 use crate::plot::axis::Axis;
 use crate::plot::mark::{Curve, Points, RuleLine, Side, Text};
 use crate::plot::picture::{Legend, Panel, Picture, Width};
 use crate::plot::role::Role;
-use crate::table::{Table, TableError, Tables};
+use crate::table::{Table, Tables};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -72,8 +73,31 @@ const OWN: [Effect; 2] = [Effect::ConjugateLocus, Effect::SwitchPoints];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig4>();
 
-const PICTURE: Kind = picture_kind("fig4-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/fig4.rs", "plot", "table"]);
-const FINDINGS: Kind = findings_kind("fig4-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/fig4.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig4-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/fig4.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "fig4-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/fig4.rs",
+        "table",
+    ],
+);
 const CURVE: &str = "conjugate-point-versus-k";
 const CURVE_CHECK: &str = "conjugate-point-versus-k-by-integration";
 const SWITCHES: &str = "switch-points";
@@ -124,7 +148,13 @@ impl Definition for Fig4 {
                 let first = SwitchPoints { p_theta: value, k_low, k_high };
                 let first = nodes.add(SWITCHES, &axis, first, &[], &origins)?;
                 let input = [(switch_points_by_integration::INPUT, &first)];
-                nodes.add(SWITCHES_CHECK, &axis, SwitchPointsByIntegration::new(scene.accuracy), &input, &[("asked", "scene.accuracy".to_owned())])?;
+                nodes.add(
+                    SWITCHES_CHECK,
+                    &axis,
+                    SwitchPointsByIntegration::new(scene.accuracy),
+                    &input,
+                    &[("asked", "scene.accuracy".to_owned())],
+                )?;
                 switches.get_or_insert(first);
             }
         }
@@ -175,9 +205,8 @@ impl Definition for Fig4 {
                 said.push_str(&format!(" {} = {:.6},", switch.plain(), switch.k));
             }
         }
-        let mut caption = format!(
-            "Spin problem, start on the equator with p_φ = −2, p_θ = {p_theta:?}, H = 1 (section 5.2.1)."
-        );
+        let mut caption =
+            format!("Spin problem, start on the equator with p_φ = −2, p_θ = {p_theta:?}, H = 1 (section 5.2.1).");
         if rows > 0 {
             caption.push_str(&format!(
                 " θ (dashed) and φ (continuous, from the pole) of the first conjugate point as functions of k: {rows} \
@@ -221,17 +250,6 @@ impl Definition for Fig4 {
     }
 }
 
-fn value(name: impl Into<String>, (value, error): (f64, f64), meaning: impl Into<String>, route: &str) -> NamedValue {
-    NamedValue {
-        name: name.into(),
-        value,
-        unit: "1".to_owned(),
-        meaning: meaning.into(),
-        route: route.to_owned(),
-        error,
-    }
-}
-
 fn switch_values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
     let mut values = Vec::new();
     let mut difference: f64 = 0.0;
@@ -241,7 +259,7 @@ fn switch_values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, No
             let what = if switch.pole { "a pole" } else { "the equator" };
             let meaning = format!("k at which the first conjugate point for p_θ = {p_theta:?} passes {what}");
             let route = "root in k of the closed form; second route: root in k of the integrated lift";
-            values.push(value(name, (switch.k, switch.error), meaning, route));
+            values.push(value(name, (switch.k, switch.error), "1", meaning, route));
         }
         let check = tables.get(&at(SWITCHES_CHECK, p_theta)).map_err(unread)?;
         difference = check.f64s("difference").map_err(unread)?.iter().copied().fold(difference, f64::max);
@@ -249,11 +267,12 @@ fn switch_values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, No
     for switch in switches(tables, params.scene.start.p_theta)? {
         let meaning = format!("limit of {} for p_θ → 0: {}", switch.name(), switch.formula());
         let error = 2.0 * f64::EPSILON * switch.limit;
-        values.push(value(format!("{}_limit", switch.name()), (switch.limit, error), meaning, "algebraic"));
+        values.push(value(format!("{}_limit", switch.name()), (switch.limit, error), "1", meaning, "algebraic"));
     }
     values.push(value(
         "largest_switch_difference",
         (difference, f64::EPSILON),
+        "1",
         "largest difference in k of a switch point between closed form and integration",
         "closed form in f64 against power series in double-double",
     ));
@@ -266,32 +285,18 @@ fn curve_values(tables: &Tables) -> Result<[NamedValue; 2], NodeError> {
         value(
             "largest_route_difference",
             (check.well, 4.0 * f64::EPSILON),
+            "1",
             "largest relative difference of t1 between the routes where 1e-12 is asked",
             "closed form against power series",
         ),
         value(
             "largest_route_difference_in_bounds",
             (check.in_bounds, 1e-3),
+            "1",
             "largest difference of t1 in units of what its row allows, vertical tangents included",
             "closed form against power series, in double-double next to vertical tangents",
         ),
     ])
-}
-
-fn claim(id: &str, place: &str, statement: impl Into<String>, test: Test, note: impl Into<String>) -> Claim {
-    Claim {
-        id: id.to_owned(),
-        place: place.to_owned(),
-        statement: statement.into(),
-        evidence: Evidence::Direct(test),
-        note: note.into(),
-    }
-}
-
-/// A statement about one thing, which holds or not.
-fn one_case(holds: bool, found: String) -> Test {
-    let example = if holds { String::new() } else { found };
-    Test::None { counterexamples: u64::from(!holds), cases: 1, example }
 }
 
 /// What the article prints about k1, k2, k3 and k̄.
@@ -301,23 +306,23 @@ fn printed_switches(found: &[Switch]) -> Vec<Claim> {
     for (switch, printed) in poles.iter().zip([1.061, 1.250, 1.429]) {
         let (name, reason) = (switch.name(), "half a unit of the last printed digit".to_owned());
         let test = Test::Equal { printed, ours: switch.k, tolerance: 0.5e-3, reason };
-        claims.push(claim(&name, PLACE, format!("{name} is approximately {printed:.3}."), test, ""));
+        claims.push(claim(&name, PLACE, format!("{name} is approximately {printed:.3}."), Evidence::Direct(test), ""));
     }
     let reason = "a count; the range of k is scanned for every whole turn".to_owned();
     let test = Test::Equal { printed: 3.0, ours: poles.len() as f64, tolerance: 0.0, reason };
     let statement = "θ of the first conjugate point switches three times for k in [1, 1.5].";
-    claims.push(claim("three_switches", PLACE, statement, test, ""));
+    claims.push(claim("three_switches", PLACE, statement, Evidence::Direct(test), ""));
     let [first, second, third] = poles[..] else { return claims };
     let (below, above) = (second.k - first.k, third.k - second.k);
     let known = first.error + 2.0 * second.error + third.error;
-    let test = one_case((below - above).abs() > known, format!("{below:?} and {above:?}"));
+    let cases = Cases::of([((below - above).abs() > known, format!("{below:?} and {above:?}"))]);
     let note = format!("They are {below:.12} and {above:.12}.");
-    claims.push(claim("unequal_steps", PLACE, "k2 − k1 differs from k3 − k2.", test, note));
+    claims.push(cases.claim("unequal_steps", PLACE, "k2 − k1 differs from k3 − k2.", note));
     if let Some(bar) = found.iter().find(|switch| !switch.pole) {
-        let test = one_case(first.k < bar.k && bar.k < second.k, format!("{:?}", bar.k));
+        let cases = Cases::of([(first.k < bar.k && bar.k < second.k, format!("{:?}", bar.k))]);
         let statement = "The conjugate point crosses the equator at a k̄ between k1 and k2.";
         let note = "A second crossing, k̄', lies between k2 and k3.";
-        claims.push(claim("k_bar_between", PLACE, statement, test, note));
+        claims.push(cases.claim("k_bar_between", PLACE, statement, note));
     }
     claims
 }
@@ -335,7 +340,7 @@ fn limit_claim(params: &Params, tables: &Tables) -> Result<Option<Claim>, NodeEr
         "limits",
         "beyond the article",
         "For p_θ → 0 the switch points tend to (2n+1)/√(8n) (poles) and n/√(2n−1) (equator).",
-        test,
+        Evidence::Direct(test),
         "On the meridian w tan t = tan(wt), w² = 1 − 1/k²; a pole is t = (n+½)π, w = (2n−1)/(2n+1), the equator \
          t = nπ, w = (n−1)/n.",
     )))
@@ -351,7 +356,7 @@ fn switch_routes_agree(params: &Params, tables: &Tables) -> Result<Claim, NodeEr
     let reason = "the closed form's own error in k, a few units in its last place".to_owned();
     let statement = "Closed form and integration give the same switch points.";
     let test = Test::AtMost { measured, tolerance, reason };
-    Ok(claim("switch_routes_agree", "all switch points of this experiment", statement, test, ""))
+    Ok(claim("switch_routes_agree", "all switch points of this experiment", statement, Evidence::Direct(test), ""))
 }
 
 fn meridian_claim(tables: &Tables) -> Result<Claim, NodeError> {
@@ -372,7 +377,7 @@ fn meridian_claim(tables: &Tables) -> Result<Claim, NodeError> {
         "θ passes continuously from π to 0 and back, since r3 is of order p_θ³ and not 0; it is farther than 1e-3 rad \
          from both within less than {width:.1e} of k in all."
     );
-    Ok(claim("theta_is_0_or_pi", PLACE, statement, test, note))
+    Ok(claim("theta_is_0_or_pi", PLACE, statement, Evidence::Direct(test), note))
 }
 
 fn curve_routes_agree(tables: &Tables) -> Result<Claim, NodeError> {
@@ -386,7 +391,7 @@ fn curve_routes_agree(tables: &Tables) -> Result<Claim, NodeError> {
     };
     let statement = "Closed form and integration give the same conjugate times.";
     let note = format!("{} of {} rows needed double-double.", check.long, check.rows);
-    Ok(claim("routes_agree", "all conjugate times of this experiment", statement, test, note))
+    Ok(claim("routes_agree", "all conjugate times of this experiment", statement, Evidence::Direct(test), note))
 }
 
 /// The momenta of the switch points, the scene's first, with the config keys they come from.
@@ -395,10 +400,6 @@ fn momenta(params: &Params) -> Vec<(f64, String)> {
     let more = params.limit.p_theta.iter().enumerate().filter(|(_, value)| **value != scene);
     let more = more.map(|(i, value)| (*value, format!("limit.p_theta[{i}]")));
     std::iter::once((scene, "scene.start.p_theta".to_owned())).chain(more).collect()
-}
-
-fn unread(error: TableError) -> NodeError {
-    NodeError::new(error.to_string())
 }
 
 fn at(node: &str, p_theta: f64) -> String {
@@ -545,21 +546,14 @@ mod tests {
 
     #[test]
     fn wrong_configs_are_refused_by_key() {
-        let params = |from: &str, to: &str| {
-            let text = include_str!("../../experiments/fig4.toml").replace(from, to);
-            crate::contract::config::read::<Params>("f", &text).map_err(|error| error.to_string())
-        };
-        assert!(params("", "").is_ok());
-        for (from, to, key) in [
+        let cases = [
             ("from = 1.0", "from = 0.0", "scene.metric.spin.k.from"),
             ("k = { from = 1.0, to = 1.5, count = 201 }", "k = 1.0", "scene.metric.spin.k"),
             ("[1e-6,", "[-1e-6,", "limit.p_theta[0]"),
             ("[1e-6, 1e-8", "[1e-6, 1e-6", "limit.p_theta[1]"),
             ("\"conjugate-locus\",", "\"attitude\",", "scene.effects[0]"),
             ("p_theta = 1e-4 }", "p_theta = nan }", "scene.start.p_theta"),
-        ] {
-            let refused = params(from, to).unwrap_err();
-            assert!(refused.contains(key), "{refused}");
-        }
+        ];
+        preview::refuses::<Params>(include_str!("../../experiments/fig4.toml"), &cases);
     }
 }

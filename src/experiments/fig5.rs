@@ -9,11 +9,12 @@
 //! two momenta with one conjugate point; for `k → k̄` it goes to the start.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
+use super::findings::{Cases, unread};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
 use super::spin_branches::{
     Branch, ask_for_branch, ask_for_double_points, contact, cusp_values, double_point_values, double_points,
-    largest_route_difference, no_counterexample, routes_agree, switches, unread, validate_panels,
+    largest_route_difference, routes_agree, switches, validate_panels,
 };
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::Claim;
@@ -21,7 +22,7 @@ use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::sweep::Sweep;
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{BranchStart, Effect, Scene, SpinMetric, SPIN};
+use crate::effects::scene::{BranchStart, Effect, SPIN, Scene, SpinMetric};
 use crate::effects::spin::loops::Loops;
 use crate::plot::axis::Axis;
 use crate::plot::mark::{Curve, Points, RuleLine};
@@ -80,7 +81,12 @@ pub struct InsetParams {
 impl InsetParams {
     fn validate(&self, key: &str) -> Result<(), Invalid> {
         for (name, (from, to)) in [("theta", self.theta), ("phi", self.phi)] {
-            Invalid::number(from < to && to - from <= PI, format!("{key}.{name}[1]"), to, format!("a number above {from:?}"))?;
+            Invalid::number(
+                from < to && to - from <= PI,
+                format!("{key}.{name}[1]"),
+                to,
+                format!("a number above {from:?}"),
+            )?;
         }
         for (axis, (at, size)) in [(self.at.0, self.size.0), (self.at.1, self.size.1)].into_iter().enumerate() {
             let accepted = "at and size from 0 to 1, size at least 0.2, at + size at most 1";
@@ -95,7 +101,8 @@ impl Validate for Params {
     fn validate(&self) -> Result<(), Invalid> {
         self.scene.metric.validate()?;
         let sweep = &self.scene.metric.spin.k;
-        sweep.validate_each("scene.metric.spin.k", "1 <= k <= 3 (Fig. 7 is for k < 1)", |k| (1.0..=3.0).contains(&k))?;
+        sweep
+            .validate_each("scene.metric.spin.k", "1 <= k <= 3 (Fig. 7 is for k < 1)", |k| (1.0..=3.0).contains(&k))?;
         self.scene.start.validate()?;
         self.scene.validate_effects(&OWN, SPIN)?;
         self.loops.k.validate_each("loops.k", "1 <= k <= 3", |k| (1.0..=3.0).contains(&k))?;
@@ -115,11 +122,33 @@ const OWN: [Effect; 1] = [Effect::ConjugateLocus];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig5>();
 
-const PICTURE: Kind =
-    picture_kind("fig5-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig5.rs", "experiments/spin_branches.rs", "plot", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig5-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/findings.rs",
+        "experiments/fig5.rs",
+        "experiments/spin_branches.rs",
+        "plot",
+        "table",
+    ],
+);
 const FINDINGS: Kind = findings_kind(
     "fig5-findings",
-    &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig5.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"],
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "effects/spin/contact.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/findings.rs",
+        "experiments/fig5.rs",
+        "experiments/spin_branches.rs",
+        "geometry/spin",
+        "numerics",
+        "table",
+    ],
 );
 const LOOPS: &str = "loops";
 
@@ -193,8 +222,10 @@ impl Definition for Fig5 {
     }
 
     fn picture(params: &Params, tables: &Tables) -> Result<Picture, NodeError> {
-        let counts: Vec<String> =
-            branches(params, tables)?.iter().map(|branch| format!("{} for k = {}", branch.p_theta.len(), branch.k)).collect();
+        let counts: Vec<String> = branches(params, tables)?
+            .iter()
+            .map(|branch| format!("{} for k = {}", branch.p_theta.len(), branch.k))
+            .collect();
         let columns = params.panels.len() as f64;
         let width = if params.panels.len() > 1 { Width::Double } else { Width::Single };
         let height = ((width.millimetres() - 6.0) / columns - 10.0).min(110.0) + 19.0;
@@ -246,25 +277,19 @@ impl Definition for Fig5 {
             (length[b] < length[a], format!("k = {:?}, {:?}: lengths {:?}, {:?}", ks[a], ks[b], length[a], length[b]))
         });
         Ok(vec![
-            no_counterexample(
-                ("half_plane", "section 5.2.1", "For any k in [1, k3] the branch lies in the half-plane θ ≥ 0."),
-                half_plane,
+            Cases::of(half_plane).claim("half_plane", "section 5.2.1", "For any k in [1, k3] the branch lies in the half-plane θ ≥ 0.",
                 "Every sample of every branch; also θ ≤ π.",
             ),
-            no_counterexample(
-                ("loop", "section 5.2.1", "The branch forms a loop for k̄ ≤ k ≤ k3 (and none before)."),
-                has_loop,
+            Cases::of(has_loop).claim("loop", "section 5.2.1", "The branch forms a loop for k̄ ≤ k ≤ k3 (and none before).",
                 "At k̄ the cusp passes the start along the meridian θ = 0. From then on the strand that comes from the cusp has to cross the arc that \
                  leaves the start, which touches the meridian from the other side of the equator: a double point, one for each k examined.",
             ),
-            no_counterexample(
-                ("ends_on_meridian", "section 5.2.1", "The branch ends at θ = π for k < k1, at θ = 0 for k1 < k < k2, at θ = π for k2 < k < k3."),
-                ends,
+            Cases::of(ends).claim("ends_on_meridian",
+                    "section 5.2.1",
+                    "The branch ends at θ = π for k < k1, at θ = 0 for k1 < k < k2, at θ = π for k2 < k < k3.",
                 "The limit p_θ → 0: k1 = 3/√8, k2 = 5/4, k3 = 7/√24.",
             ),
-            no_counterexample(
-                ("loops_shrink", "section 5.2.3", "The loops become smaller and smaller for greater values of k."),
-                shrinks,
+            Cases::of(shrinks).claim("loops_shrink", "section 5.2.3", "The loops become smaller and smaller for greater values of k.",
                 "The length of the loop on the sphere, over the values of k examined.",
             ),
             contact(&branches(params, tables)?),
@@ -275,9 +300,9 @@ impl Definition for Fig5 {
 
 #[cfg(test)]
 mod tests {
-    use crate::experiments::spin_branches::tests::{assert_claims, assert_references};
     use super::*;
     use crate::experiments::preview;
+    use crate::experiments::spin_branches::tests::{assert_claims, assert_references};
 
     /// Oracle: mpmath, tests/oracle/values.toml.
     #[test]

@@ -8,19 +8,20 @@
 //! stretches it: between p_θ = 0.0008 and 0.001 for k = 0.1 it turns through 3 radians of θ.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
+use super::findings::{Cases, unread};
 use super::nodes::Nodes;
-use super::scenes::more::Asked;
 use super::scenes::curves::curves;
+use super::scenes::more::Asked;
 use super::spin_branches::{
-    Branch, ask_for_branch, contact, cusp_inset, cusp_values, largest_route_difference, name_of, no_counterexample, origins, other_half,
-    routes_agree, turned, unread,
+    Branch, ask_for_branch, contact, cusp_inset, cusp_values, largest_route_difference, name_of, origins, other_half,
+    routes_agree, turned,
 };
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::Claim;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{BranchStart, Effect, Scene, SpinMetric, SPIN};
+use crate::effects::scene::{BranchStart, Effect, SPIN, Scene, SpinMetric};
 use crate::effects::spin::by_integration::tolerance;
 use crate::effects::spin::geodesics::Geodesics;
 use crate::plot::axis::Axis;
@@ -55,7 +56,11 @@ pub struct Trajectories {
 impl Validate for Params {
     fn validate(&self) -> Result<(), Invalid> {
         self.scene.metric.validate()?;
-        self.scene.metric.spin.k.validate_each("scene.metric.spin.k", "0 < k < 1 (Fig. 5 is for k ≥ 1)", |k| k < 1.0)?;
+        self.scene
+            .metric
+            .spin
+            .k
+            .validate_each("scene.metric.spin.k", "0 < k < 1 (Fig. 5 is for k ≥ 1)", |k| k < 1.0)?;
         Invalid::unless(
             self.scene.metric.spin.k.count() <= 12,
             "scene.metric.spin.k",
@@ -76,9 +81,34 @@ const OWN: [Effect; 2] = [Effect::Geodesics, Effect::ConjugateLocus];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig7>();
 
-const PICTURE: Kind = picture_kind("fig7-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig7.rs", "experiments/spin_branches.rs", "plot", "table"]);
-const FINDINGS: Kind =
-    findings_kind("fig7-findings", &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig7.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig7-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/findings.rs",
+        "experiments/fig7.rs",
+        "experiments/spin_branches.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "fig7-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "effects/spin/contact.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/findings.rs",
+        "experiments/fig7.rs",
+        "experiments/spin_branches.rs",
+        "geometry/spin",
+        "numerics",
+        "table",
+    ],
+);
 const GEODESICS: &str = "geodesics";
 
 struct Fig7;
@@ -106,14 +136,16 @@ fn panel(params: &Params, tables: &Tables, k: f64) -> Result<Panel, NodeError> {
     if params.scene.asks_for(Effect::Geodesics) {
         let table = tables.get(&name_of(GEODESICS, k)).map_err(unread)?;
         let text = "extremals up to their first conjugate points";
-        panel = panel.marks(curves(table, "index")?.into_iter().map(|points| Curve::new(Role::Geodesic, points).legend(text)));
+        panel = panel
+            .marks(curves(table, "index")?.into_iter().map(|points| Curve::new(Role::Geodesic, points).legend(text)));
     }
     if params.scene.asks_for(Effect::ConjugateLocus) {
         let branch = Branch::of(tables, k)?;
         let half = branch.half();
         for half in [half.clone(), other_half(&half)] {
             panel = panel.marks(
-                [-1.0, 0.0, 1.0].map(|turns| Curve::new(Role::ConjugateLocus, turned(&half, turns)).legend("conjugate locus")),
+                [-1.0, 0.0, 1.0]
+                    .map(|turns| Curve::new(Role::ConjugateLocus, turned(&half, turns)).legend("conjugate locus")),
             );
         }
         let cusp = branch.phi[0];
@@ -151,7 +183,8 @@ impl Definition for Fig7 {
         for (index, k) in sweep.values().into_iter().enumerate() {
             if params.scene.asks_for(Effect::Geodesics) {
                 let Trajectories { count, step } = params.trajectories;
-                let geodesics = Geodesics { k, p_theta: p_theta.into(), count, step, tolerance: tolerance(params.scene.accuracy) };
+                let geodesics =
+                    Geodesics { k, p_theta: p_theta.into(), count, step, tolerance: tolerance(params.scene.accuracy) };
                 let mut origins = origins(sweep, index);
                 origins.push(("count", "trajectories.count".to_owned()));
                 origins.push(("step", "trajectories.step".to_owned()));
@@ -169,10 +202,14 @@ impl Definition for Fig7 {
         let ks = params.scene.metric.spin.k.values();
         let columns = if ks.len() > 1 { 2 } else { 1 };
         let rows = ks.len().div_ceil(columns);
-        let mut caption = "Spin problem, start (θ, φ) = (0, π/2) on the equator, H = 1, in the chart (θ, φ), φ from the pole.".to_owned();
+        let mut caption =
+            "Spin problem, start (θ, φ) = (0, π/2) on the equator, H = 1, in the chart (θ, φ), φ from the pole."
+                .to_owned();
         if params.scene.asks_for(Effect::ConjugateLocus) {
-            let counts: Vec<String> =
-                branches(params, tables)?.iter().map(|branch| format!("{} for k = {}", branch.p_theta.len(), branch.k)).collect();
+            let counts: Vec<String> = branches(params, tables)?
+                .iter()
+                .map(|branch| format!("{} for k = {}", branch.p_theta.len(), branch.k))
+                .collect();
             caption.push_str(&format!(
                 " Thick: the conjugate locus for p_φ(0) = ±2 and p_θ(0) of both signs, points where the phase of the closed form is π, relative \
                  error of t1 below 1e-14; one branch, p_φ = −2, p_θ ≥ 0, has {} points, the others are its mirror images. It is continued beyond \
@@ -188,9 +225,10 @@ impl Definition for Fig7 {
                 params.trajectories.count
             ));
         }
-        let mut picture = Picture::new(Width::Double, 45.0 * rows as f64 + 12.0, "Conjugate loci of the spin problem for k < 1")
-            .caption(caption)
-            .layout(Layout::Columns(columns));
+        let mut picture =
+            Picture::new(Width::Double, 45.0 * rows as f64 + 12.0, "Conjugate loci of the spin problem for k < 1")
+                .caption(caption)
+                .layout(Layout::Columns(columns));
         for k in ks {
             picture = picture.panel(panel(params, tables, k)?);
         }
@@ -216,9 +254,10 @@ impl Definition for Fig7 {
                 let falls = curves(table, "index")?.iter().map(|curve| decrease(curve)).fold(0.0, f64::max);
                 cases.push((falls > 1e-6, format!("k = {k:?}: the largest decrease is {falls:e}")));
             }
-            claims.push(no_counterexample(
-                ("theta_not_monotone", "section 5.2.2", "For k < 1 the variable θ is not monotone (along some extremal, up to t1)."),
-                cases,
+            claims.push(Cases::of(cases).claim(
+                "theta_not_monotone",
+                "section 5.2.2",
+                "For k < 1 the variable θ is not monotone (along some extremal, up to t1).",
                 "",
             ));
         }
@@ -228,9 +267,7 @@ impl Definition for Fig7 {
                 let beyond = branch.t1[0] > PI && branch.t1[0] < 1.5 * PI && branch.phi[0] > FRAC_PI_2;
                 (beyond, format!("k = {:?}: t1 = {:?}, φ = {:?}", branch.k, branch.t1[0], branch.phi[0]))
             });
-            claims.push(no_counterexample(
-                ("cusp_stays_beyond_equator", "section 5.2.3", "For k < 1 the cusp does not cross the equator."),
-                cases,
+            claims.push(Cases::of(cases).claim("cusp_stays_beyond_equator", "section 5.2.3", "For k < 1 the cusp does not cross the equator.",
                 "For p_θ = 0 and k < 1, t1 solves l tan t = tanh(l t), l² = 1/k² − 1, which has its first root in (π, 3π/2) for every l: \
                  between the equator, reached as k → 0, and the round case.",
             ));
@@ -243,9 +280,9 @@ impl Definition for Fig7 {
 
 #[cfg(test)]
 mod tests {
-    use crate::experiments::spin_branches::tests::{assert_claims, assert_references};
     use super::*;
     use crate::experiments::preview;
+    use crate::experiments::spin_branches::tests::{assert_claims, assert_references};
 
     /// Oracle: mpmath, tests/oracle/values.toml.
     #[test]
@@ -258,9 +295,13 @@ mod tests {
 
     #[test]
     fn an_effect_left_out_takes_its_findings_along() {
-        let without = preview::run(&EXPERIMENT, |text| text.replace("\"geodesics\", ", "").replace("[0.8, 0.5, 0.2, 0.1]", "0.8"));
+        let without = preview::run(&EXPERIMENT, |text| {
+            text.replace("\"geodesics\", ", "").replace("[0.8, 0.5, 0.2, 0.1]", "0.8")
+        });
         assert_claims(&without, &["cusp_stays_beyond_equator", "contact_of_order_two", "routes_agree"]);
-        let without = preview::run(&EXPERIMENT, |text| text.replace(", \"conjugate-locus\"]", "]").replace("[0.8, 0.5, 0.2, 0.1]", "0.8"));
+        let without = preview::run(&EXPERIMENT, |text| {
+            text.replace(", \"conjugate-locus\"]", "]").replace("[0.8, 0.5, 0.2, 0.1]", "0.8")
+        });
         assert_claims(&without, &["theta_not_monotone"]);
         assert!(without.findings.values.is_empty());
     }

@@ -8,18 +8,19 @@
 //! is close to the start.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
+use super::findings::{Cases, claim};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
 use super::spin_branches::{
     Branch, ask_for_branch, ask_for_double_points, contact, cusp_values, double_point_values, double_points,
-    largest_route_difference, no_counterexample, routes_agree, switches, validate_panels,
+    largest_route_difference, routes_agree, switches, validate_panels,
 };
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{BranchStart, Effect, Scene, SpinMetric, SPIN};
+use crate::effects::scene::{BranchStart, Effect, SPIN, Scene, SpinMetric};
 use crate::plot::mark::{SphereCurve, SpherePoints};
 use crate::plot::picture::{Panel, Picture, View, Width};
 use crate::plot::role::Role;
@@ -73,11 +74,33 @@ const OWN: [Effect; 1] = [Effect::ConjugateLocus];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Fig8>();
 
-const PICTURE: Kind =
-    picture_kind("fig8-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig8.rs", "experiments/spin_branches.rs", "plot", "table"]);
+const PICTURE: Kind = picture_kind(
+    "fig8-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/findings.rs",
+        "experiments/fig8.rs",
+        "experiments/spin_branches.rs",
+        "plot",
+        "table",
+    ],
+);
 const FINDINGS: Kind = findings_kind(
     "fig8-findings",
-    &["contract/claim.rs", "contract/value.rs", "effects/spin/contact.rs", "experiments/definition.rs", "experiments/scenes", "experiments/findings.rs", "experiments/fig8.rs", "experiments/spin_branches.rs", "geometry/spin", "numerics", "table"],
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "effects/spin/contact.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/findings.rs",
+        "experiments/fig8.rs",
+        "experiments/spin_branches.rs",
+        "geometry/spin",
+        "numerics",
+        "table",
+    ],
 );
 
 struct Fig8;
@@ -102,11 +125,13 @@ fn sphere(tables: &Tables, shown: &Sphere) -> Result<Panel, NodeError> {
         let [r1, r2, r3] = branch.r;
         let cusp = SpherePoints::new(Role::CuspPoint, vec![[r1[0], r3[0], r2[0]]]);
         panel = panel.mark(cusp.labels([format!("*k* = {k}")]).legend("cusp, *p*_θ = 0"));
-        let places: Vec<[f64; 3]> =
-            double_points(tables, *k)?.iter().flat_map(|point| {
+        let places: Vec<[f64; 3]> = double_points(tables, *k)?
+            .iter()
+            .flat_map(|point| {
                 let [x, y, z] = point.on_sphere;
                 [[x, y, z], [x, -y, z]]
-            }).collect();
+            })
+            .collect();
         if !places.is_empty() {
             panel = panel.mark(SpherePoints::new(Role::SelfIntersection, places).legend("double point"));
         }
@@ -124,25 +149,29 @@ fn pole_claim(branches: &[Branch<'_>]) -> Claim {
     let evidence = if let (Some(before), Some(after)) = (before, after) {
         // Beyond the equator before and after, on opposite halves of the meridian: it passed the pole in between.
         let passed = if before.phi[0] > FRAC_PI_2 && after.phi[0] > FRAC_PI_2 { PI } else { 0.0 };
-        let test = |printed: f64| Test::Equal {
-            printed,
+        let test = |north: f64| Test::Equal {
+            printed: north,
             ours: passed,
             tolerance: 0.0,
             reason: "φ of the pole between the cusps of a k below k1 and of one above it".to_owned(),
         };
-        Evidence::Slip { printed: test(0.0), correction: "the pole φ = π".to_owned(), corrected: test(PI) }
+        Evidence::OnlyWhen {
+            condition: "the North pole is φ = π, not φ = 0".to_owned(),
+            inside: test(PI),
+            outside: test(0.0),
+        }
     } else {
         Evidence::NotChecked { reason: "the scene has no k in [1, k1), or none in (k1, k̄)".to_owned() }
     };
-    Claim {
-        id: "first_pole".to_owned(),
-        place: "section 5.2.3".to_owned(),
-        statement: "For k > 1 the cusp first crosses the North pole (k = k1); with φ measured from the pole, North is φ = 0.".to_owned(),
+    claim(
+        "first_pole",
+        "section 5.2.3",
+        "For k > 1 the cusp first crosses the North pole (k = k1).",
         evidence,
-        note: "With p_φ(0) = −2 the extremals go first over φ = 0; the cusp is reached on the way back, after t1 = 3π/2 on the meridian, \
-               at the pole φ = π. It is φ = 0 for the other half, p_φ(0) = 2."
-            .to_owned(),
-    }
+        "The text does not say which pole is North; φ is measured from the pole φ = 0, which is N in the figure. With p_φ(0) = −2 \
+               the extremals go first over φ = 0; the cusp is reached on the way back, after t1 = 3π/2 on the meridian, at the pole φ = \
+               π. It is φ = 0 for the other half, p_φ(0) = 2.",
+    )
 }
 
 impl Definition for Fig8 {
@@ -177,8 +206,10 @@ impl Definition for Fig8 {
     }
 
     fn picture(params: &Params, tables: &Tables) -> Result<Picture, NodeError> {
-        let counts: Vec<String> =
-            branches(params, tables)?.iter().map(|branch| format!("{} for k = {}", branch.p_theta.len(), branch.k)).collect();
+        let counts: Vec<String> = branches(params, tables)?
+            .iter()
+            .map(|branch| format!("{} for k = {}", branch.p_theta.len(), branch.k))
+            .collect();
         let views: Vec<String> =
             params.panels.iter().map(|panel| format!("({}°, {}°)", panel.longitude, panel.latitude)).collect();
         let (width, height) = match params.panels.len() {
@@ -229,29 +260,29 @@ impl Definition for Fig8 {
         let mut loops = Vec::new();
         for branch in branches.iter().filter(|branch| branch.k <= switches.k3) {
             let count = double_points(tables, branch.k)?.len();
-            loops.push(((count > 0) == (branch.k > switches.k_bar), format!("k = {:?}: {count} double points", branch.k)));
+            loops.push((
+                (count > 0) == (branch.k > switches.k_bar),
+                format!("k = {:?}: {count} double points", branch.k),
+            ));
         }
         let mut claims = Vec::new();
         if branches.iter().any(|branch| branch.k < 1.0) {
-            claims.push(no_counterexample(
-                ("cusp_stays_beyond_equator", "section 5.2.3", "For k < 1 the cusp does not cross the equator."),
-                below,
+            claims.push(Cases::of(below).claim(
+                "cusp_stays_beyond_equator",
+                "section 5.2.3",
+                "For k < 1 the cusp does not cross the equator.",
                 "",
             ));
         }
         if branches.iter().any(|branch| branch.k >= 1.0 && branch.k < switches.k2) {
-            claims.push(no_counterexample(
-                ("pole_then_equator", "section 5.2.3", "For k > 1 the cusp first crosses a pole (k = k1), then the equator (k = k̄)."),
-                above,
+            claims.push(Cases::of(above).claim("pole_then_equator", "section 5.2.3", "For k > 1 the cusp first crosses a pole (k = k1), then the equator (k = k̄).",
                 "It moves along the meridian of the start: θ = π before k1, θ = 0 after it; φ > π/2 before k̄, φ < π/2 after it. The crossing of the \
                  equator is at the start itself. k1 = 3/√8 and k̄ = 2/√3 in the limit p_θ → 0.",
             ));
         }
         claims.push(pole_claim(&branches));
         if !loops.is_empty() {
-            claims.push(no_counterexample(
-                ("self_intersections", "section 5.2.3", "For k ≥ k̄ the conjugate locus has self-intersections (and not before)."),
-                loops,
+            claims.push(Cases::of(loops).claim("self_intersections", "section 5.2.3", "For k ≥ k̄ the conjugate locus has self-intersections (and not before).",
                 "Of one branch, p_θ ≥ 0, with itself; those of p_θ ≤ 0 are their mirror images. Fig. 5 examines more values of k.",
             ));
         }
@@ -263,16 +294,23 @@ impl Definition for Fig8 {
 
 #[cfg(test)]
 mod tests {
-    use crate::experiments::spin_branches::tests::{assert_claims, assert_references};
     use super::*;
     use crate::experiments::preview;
+    use crate::experiments::spin_branches::tests::{assert_claims, assert_references};
 
     /// Oracle: mpmath, tests/oracle/values.toml.
     #[test]
     fn values_and_claims() {
         let preview = preview::run(&EXPERIMENT, |text| text);
         assert_references(EXPERIMENT.kind, &preview);
-        let claims = ["cusp_stays_beyond_equator", "pole_then_equator", "first_pole", "self_intersections", "contact_of_order_two", "routes_agree"];
+        let claims = [
+            "cusp_stays_beyond_equator",
+            "pole_then_equator",
+            "first_pole",
+            "self_intersections",
+            "contact_of_order_two",
+            "routes_agree",
+        ];
         assert_claims(&preview, &claims);
     }
 }

@@ -1,4 +1,4 @@
-//! What many experiments say alike: numbers off a table of quantities, and the agreement of two routes.
+//! What many experiments say alike: values, claims, numbers off a table of quantities, cases, and the agreement of two routes.
 
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::node::NodeError;
@@ -8,6 +8,37 @@ use crate::table::{Table, TableError};
 /// A table that can't be read the way an experiment reads it.
 pub fn unread(error: TableError) -> NodeError {
     NodeError::new(error.to_string())
+}
+
+/// A claim.
+pub fn claim(
+    id: &str,
+    place: &str,
+    statement: impl Into<String>,
+    evidence: Evidence,
+    note: impl Into<String>,
+) -> Claim {
+    Claim { id: id.to_owned(), place: place.to_owned(), statement: statement.into(), evidence, note: note.into() }
+}
+
+/// A named value with the bound of its absolute error.
+pub fn value(
+    name: impl Into<String>,
+    (value, error): (f64, f64),
+    unit: &str,
+    meaning: impl Into<String>,
+    route: &str,
+) -> NamedValue {
+    let (unit, route) = (unit.to_owned(), route.to_owned());
+    NamedValue { name: name.into(), value, unit, meaning: meaning.into(), route, error }
+}
+
+/// The named value among others.
+///
+/// # Errors
+/// No value of this name.
+pub fn named<'a>(values: &'a [NamedValue], name: &str) -> Result<&'a NamedValue, NodeError> {
+    values.iter().find(|value| value.name == name).ok_or_else(|| NodeError::new(format!("no value {name}")))
 }
 
 /// All numbers of a table of quantities, as named values.
@@ -45,23 +76,20 @@ pub fn largest(table: &Table, column: &str) -> Result<f64, NodeError> {
 /// # Errors
 /// A table of another form.
 pub fn largest_route_difference(second_routes: &[&Table]) -> Result<NamedValue, NodeError> {
-    let mut value: f64 = 0.0;
+    let mut worst: f64 = 0.0;
     let mut rows = 0;
     for table in second_routes {
-        value = value.max(largest(table, "t1_difference")?);
+        worst = worst.max(largest(table, "t1_difference")?);
         rows += table.rows();
     }
-    Ok(NamedValue {
-        name: "largest_route_difference".to_owned(),
-        value,
-        unit: "1".to_owned(),
-        meaning: format!(
-            "largest relative difference of a conjugate time between closed form and integration, {rows} rows"
-        ),
-        route: "closed form against power-series integration (double-double where f64 loses too much)".to_owned(),
+    Ok(value(
+        "largest_route_difference",
         // The differences of nearby numbers are exact; their own rounding is that of the two routes.
-        error: 4.0 * f64::EPSILON,
-    })
+        (worst, 4.0 * f64::EPSILON),
+        "1",
+        format!("largest relative difference of a conjugate time between closed form and integration, {rows} rows"),
+        "closed form against power-series integration (double-double where f64 loses too much)",
+    ))
 }
 
 /// The claim that both routes agree, with the difference that the tables allow.
@@ -71,18 +99,18 @@ pub fn largest_route_difference(second_routes: &[&Table]) -> Result<NamedValue, 
 pub fn routes_agree(second_routes: &[&Table]) -> Result<Claim, NodeError> {
     let measured = largest_route_difference(second_routes)?.value;
     let allowed = second_routes.iter().try_fold(0.0, |all: f64, table| Ok(all.max(largest(table, "allowed")?)))?;
-    Ok(Claim {
-        id: "routes_agree".to_owned(),
-        place: "all conjugate times of this experiment".to_owned(),
-        statement: "Closed form and integration give the same conjugate times.".to_owned(),
-        evidence: Evidence::Direct(Test::AtMost {
+    Ok(claim(
+        "routes_agree",
+        "all conjugate times of this experiment",
+        "Closed form and integration give the same conjugate times.",
+        Evidence::Direct(Test::AtMost {
             measured,
             tolerance: allowed,
             reason: "what integration gives: f64, and double-double where f64 loses more than a tenth of this"
                 .to_owned(),
         }),
-        note: String::new(),
-    })
+        "",
+    ))
 }
 
 /// Cases examined, and those that fail.
@@ -94,6 +122,15 @@ pub struct Cases {
 }
 
 impl Cases {
+    /// Cases in words, each with whether it holds.
+    pub fn of(cases: impl IntoIterator<Item = (bool, String)>) -> Self {
+        let mut all = Self::default();
+        for (holds, words) in cases {
+            all.add(!holds, || words);
+        }
+        all
+    }
+
     /// One more case, and whether it fails; the words are kept of the first that does.
     pub fn add(&mut self, fault: bool, words: impl FnOnce() -> String) {
         self.all += 1;
@@ -105,18 +142,18 @@ impl Cases {
         }
     }
 
+    /// Whether nothing was examined.
+    pub fn is_empty(&self) -> bool {
+        self.all == 0
+    }
+
+    /// The test that none fails.
+    pub fn test(self) -> Test {
+        Test::None { counterexamples: self.faults, cases: self.all, example: self.example }
+    }
+
     /// The claim that none fails.
-    pub fn claim(self, id: &str, place: &str, statement: &str) -> Claim {
-        Claim {
-            id: id.to_owned(),
-            place: place.to_owned(),
-            statement: statement.to_owned(),
-            evidence: Evidence::Direct(Test::None {
-                counterexamples: self.faults,
-                cases: self.all,
-                example: self.example,
-            }),
-            note: String::new(),
-        }
+    pub fn claim(self, id: &str, place: &str, statement: impl Into<String>, note: impl Into<String>) -> Claim {
+        claim(id, place, statement, Evidence::Direct(self.test()), note)
     }
 }

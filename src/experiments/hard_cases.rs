@@ -7,10 +7,11 @@
 //! The hard spot: an answer that is wrong where no answer in `f64` could be right is no fault of it; one that claims more than it holds is.
 
 use super::definition::{Definition, Experiment, NOT_IN_ARTICLE, findings_kind, picture_kind};
-use super::findings::unread;
+use super::findings::{Cases, unread, value};
 use super::nodes::Nodes;
+use super::three_problems::{ROTATION_GROUP, SERRET_ANDOYER, SPIN};
 use crate::contract::accuracy::Accuracy;
-use crate::contract::claim::{Claim, Evidence, Test};
+use crate::contract::claim::Claim;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Compute, Kind, NodeError};
 use crate::contract::value::NamedValue;
@@ -125,6 +126,7 @@ const PICTURE: Kind = picture_kind(
         "experiments/findings.rs",
         "experiments/scenes",
         "experiments/spin_branches.rs",
+        "experiments/three_problems.rs",
         "plot",
         "table",
     ],
@@ -139,6 +141,7 @@ const FINDINGS: Kind = findings_kind(
         "experiments/findings.rs",
         "experiments/scenes",
         "experiments/spin_branches.rs",
+        "experiments/three_problems.rs",
         "table",
     ],
 );
@@ -150,11 +153,9 @@ struct Named {
     table: String,
 }
 
-const SERRET_ANDOYER: &str = "serret-andoyer";
-const SPIN: &str = "spin";
-const ROTATION_GROUP: &str = "rotation-group";
-const METRICS: [(&str, &str); 3] =
-    [(SERRET_ANDOYER, "Serret-Andoyer"), (SPIN, "spin problem"), (ROTATION_GROUP, "SO(3)")];
+/// The problems in the order of the figure, as tables and in words, and short enough for a panel's title.
+const METRICS: [(&str, &str, &str); 3] =
+    [(SERRET_ANDOYER, "Serret-Andoyer", "SA"), (SPIN, "spin problem", "spin"), (ROTATION_GROUP, "SO(3)", "SO(3)")];
 
 /// The parameters of a family as axes of its node's address: `k=0.1`.
 fn axes<F: Serialize>(family: &F) -> Vec<(String, String)> {
@@ -268,10 +269,9 @@ impl Definition for HardCases {
     fn values(params: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
         let mut values = Vec::new();
         let mut add = |name: String, count: usize, meaning: String| {
-            let (unit, route) = ("1".to_owned(), "counted".to_owned());
-            values.push(NamedValue { name, value: count as f64, unit, meaning, route, error: 0.0 });
+            values.push(value(name, (count as f64, 0.0), "1", meaning, "counted"));
         };
-        for (metric, words) in METRICS {
+        for (metric, words, _) in METRICS {
             let (mut cases, mut stable, mut lost) = (0, 0, 0);
             for named in params.named().iter().filter(|named| named.metric == metric) {
                 let table = tables.get(&named.table).map_err(unread)?;
@@ -293,30 +293,29 @@ impl Definition for HardCases {
     }
 
     fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
-        let mut honest = (0, 0, String::new());
-        let mut stable = (0, 0, String::new());
+        let (mut honest, mut stable) = (Cases::default(), Cases::default());
         for Named { table: name, .. } in params.named() {
             let table = tables.get(&name).map_err(unread)?;
             let distance = table.f64s("distance").map_err(unread)?;
             for (row, verdict) in table.texts("verdict").map_err(unread)?.iter().enumerate() {
                 let words = || format!("{name}, distance {:e}: {verdict}", distance[row]);
-                count(&mut honest, verdict == "wrong", words);
-                count(&mut stable, verdict != "stable", words);
+                honest.add(verdict == "wrong", words);
+                stable.add(verdict != "stable", words);
             }
         }
-        let claim = |id: &str, statement: &str, (counterexamples, cases, example): (u64, u64, String)| Claim {
-            id: id.to_owned(),
-            place: "not in the article: how this program computes".to_owned(),
-            statement: statement.to_owned(),
-            evidence: Evidence::Direct(Test::None { counterexamples, cases, example }),
-            note: String::new(),
-        };
+        let place = "not in the article: how this program computes";
         Ok(vec![
-            claim("error_is_a_bound", "The error printed with an answer is never smaller than the true one.", honest),
-            claim(
+            honest.claim(
+                "error_is_a_bound",
+                place,
+                "The error printed with an answer is never smaller than the true one.",
+                "",
+            ),
+            stable.claim(
                 "answers_are_stable",
+                place,
                 "Every answer is as near to the truth as twenty roundings of its inputs would leave it.",
-                stable,
+                "",
             ),
         ])
     }
@@ -327,29 +326,13 @@ const COLUMNS: usize = 5;
 /// The most digits that are shown.
 const DIGITS: f64 = 17.0;
 
-fn count((counterexamples, cases, example): &mut (u64, u64, String), is_against: bool, words: impl FnOnce() -> String) {
-    *cases += 1;
-    if is_against {
-        *counterexamples += 1;
-        if example.is_empty() {
-            *example = words();
-        }
-    }
-}
-
 /// Digits of a relative error.
 fn digits(error: f64) -> f64 {
     if error > 0.0 { (-libm::log10(error)).clamp(0.0, DIGITS) } else { DIGITS }
 }
 
 fn panel(metric: &str, family: &str, tables: &[&Table], is_first: bool, is_last: bool) -> Result<Panel, NodeError> {
-    let short = if metric == SERRET_ANDOYER {
-        "SA"
-    } else if metric == SPIN {
-        "spin"
-    } else {
-        "SO(3)"
-    };
+    let short = METRICS.iter().find(|(name, ..)| *name == metric).map_or(metric, |(_, _, short)| *short);
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for table in tables {
         for distance in table.f64s("distance").map_err(unread)? {
@@ -402,6 +385,7 @@ fn panel(metric: &str, family: &str, tables: &[&Table], is_first: bool, is_last:
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::claim::Evidence;
     use crate::experiments::preview;
 
     /// The claims hold on every case of the config, and the naive formulations do lose digits.
@@ -425,19 +409,12 @@ mod tests {
 
     #[test]
     fn wrong_configs_are_refused_by_key() {
-        let params = |from: &str, to: &str| {
-            let text = include_str!("../../experiments/hard_cases.toml").replacen(from, to, 1);
-            crate::contract::config::read::<Params>("f", &text).map_err(|error| error.to_string())
-        };
-        assert!(params("", "").is_ok());
-        for (from, to, key) in [
+        let cases = [
             ("per_decade = 3", "per_decade = 0", "per_decade"),
             ("from = 0.1", "from = 2.0", "serret-andoyer.families[0].from"),
             ("to = 1e-15", "to = 0.5", "serret-andoyer.families[0].to"),
             ("\"cusp\"", "\"cups\"", "families"),
-        ] {
-            let refused = params(from, to).unwrap_err();
-            assert!(refused.contains(key), "{refused}");
-        }
+        ];
+        preview::refuses::<Params>(include_str!("../../experiments/hard_cases.toml"), &cases);
     }
 }

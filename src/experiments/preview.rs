@@ -1,10 +1,13 @@
 //! For tests: runs one experiment's nodes in memory, without a store, and leaves what it made in `target/preview/<id>/`.
 
+use crate::contract::config::{self, Validate};
 use crate::contract::node::{Address, InputFile, Inputs, Product};
 use crate::contract::plan::ConfigSource;
 use crate::contract::value::Findings;
 use crate::experiments::definition::{Experiment, FINDINGS_FILE};
 use crate::table::Table;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
 
 /// What an experiment made.
@@ -80,4 +83,15 @@ pub fn run_text(experiment: &Experiment, text: String) -> Preview {
         .map(|artifact| artifact.bytes(&[]).expect("a file").to_vec())
         .expect("findings");
     Preview { products, findings: serde_json::from_slice(&bytes).expect("findings that read back") }
+}
+
+/// Asserts that a config is accepted, and that with each of the texts replaced it is refused by key: `(text, put in its place, key)`.
+pub fn refuses<P: DeserializeOwned + Serialize + Validate>(config: &str, cases: &[(&str, &str, &str)]) {
+    let read = |text: &str| config::read::<P>("f", text).map(|_| ()).map_err(|error| error.to_string());
+    assert_eq!(read(config), Ok(()));
+    for (from, to, key) in cases {
+        assert!(config.contains(from), "no {from} to replace");
+        let refused = read(&config.replace(from, to)).expect_err(to);
+        assert!(refused.contains(key), "{key} in {refused}");
+    }
 }

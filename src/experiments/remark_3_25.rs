@@ -8,7 +8,7 @@
 //! limit itself enters.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{largest_route_difference, quantities, routes_agree, unread};
+use super::findings::{Cases, claim, largest_route_difference, named, quantities, routes_agree, unread, value};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
@@ -16,14 +16,14 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, Phi0Start, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
+use crate::effects::scene::{Effect, Inertia, Phi0Start, SERRET_ANDOYER, Scene, SerretAndoyerMetric};
 use crate::effects::serret_andoyer::by_integration::{self, ConjugatePointsByIntegration};
 use crate::effects::serret_andoyer::cusp_limit::{self, CuspLimit};
 use crate::effects::serret_andoyer::cusps::Cusps;
 use crate::effects::serret_andoyer::equator_limits::EquatorConjugatePoint;
 use crate::plot::axis::Axis;
-use crate::plot::mark::{At, Curve, Points, RuleLine, Side};
 use crate::plot::mark::DirectLabel;
+use crate::plot::mark::{At, Curve, Points, RuleLine, Side};
 use crate::plot::picture::{Panel, Picture, Width};
 use crate::plot::role::Role;
 use crate::table::Tables;
@@ -58,7 +58,8 @@ impl Validate for Params {
         Invalid::unless((2..=30).contains(&starts.len()), "limit.phi0", format!("{starts:?}"), "2 to 30 numbers")?;
         let mut before = half_width;
         for (i, phi0) in starts.iter().enumerate() {
-            let accepted = format!("a number in (0, {before:.6}): each at most 3/4 of the one before, all < K(k)/alpha");
+            let accepted =
+                format!("a number in (0, {before:.6}): each at most 3/4 of the one before, all < K(k)/alpha");
             Invalid::number(*phi0 > 0.0 && *phi0 < before, format!("limit.phi0[{i}]"), *phi0, accepted)?;
             before = 0.75 * phi0;
         }
@@ -72,9 +73,31 @@ const OWN: [Effect; 1] = [Effect::ConjugateLocus];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Remark>();
 
-const PICTURE: Kind = picture_kind("remark_3_25-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/remark_3_25.rs", "plot", "table"]);
-const FINDINGS: Kind =
-    findings_kind("remark_3_25-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/remark_3_25.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "remark_3_25-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/remark_3_25.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "remark_3_25-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/remark_3_25.rs",
+        "table",
+    ],
+);
 
 struct Remark;
 
@@ -142,7 +165,10 @@ impl Definition for Remark {
         };
         let axis = || Axis::new("*φ*_0").unit("length");
         let times = Panel::new(axis(), Axis::new("first conjugate time *t*_1").unit("length"))
-            .mark(Curve::new(Role::ConjugateTime, points(t1)).label(DirectLabel::new("cusp, *T*/2").at(At::Fraction(0.9))))
+            .mark(
+                Curve::new(Role::ConjugateTime, points(t1))
+                    .label(DirectLabel::new("cusp, *T*/2").at(At::Fraction(0.9))),
+            )
             .mark(rule(Role::Reference, t_star, "*t*_{\\*} = π√*A*/√((*B*−*A*)(*C*−*A*))", At::Start))
             .mark(Points::new(Role::ConjugatePoint, vec![(0.0, last("t_limit")?)]).legend("extrapolated limit"));
         let angles = Panel::new(axis(), Axis::new("*θ* there").unit("rad"))
@@ -173,14 +199,9 @@ impl Definition for Remark {
             ("t_limit", "length", "limit of the first conjugate time for φ0 → 0", "t_error"),
             ("theta_limit", "rad", "limit of θ at the first conjugate point for φ0 → 0", "theta_error"),
         ] {
-            values.push(NamedValue {
-                name: name.to_owned(),
-                value: limits.f64s(name).map_err(unread)?[last],
-                unit: unit.to_owned(),
-                meaning: meaning.to_owned(),
-                route: "Neville extrapolation in φ0² of conjugate points off the equator".to_owned(),
-                error: limits.f64s(error).map_err(unread)?[last],
-            });
+            let last_of = |name: &str| limits.f64s(name).map(|values| values[last]).map_err(unread);
+            let route = "Neville extrapolation in φ0² of conjugate points off the equator";
+            values.push(value(name, (last_of(name)?, last_of(error)?), unit, meaning, route));
         }
         values.push(largest_route_difference(&second_routes(tables)?)?);
         Ok(values)
@@ -188,10 +209,7 @@ impl Definition for Remark {
 
     fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
         let values = Self::values(params, tables)?;
-        let value = |name: &str| {
-            let found = values.iter().find(|value| value.name == name);
-            found.ok_or_else(|| NodeError::new(format!("no value {name}")))
-        };
+        let value = |name: &str| named(&values, name);
         let against = |printed: f64, limit: &NamedValue| Test::Equal {
             printed,
             ours: limit.value,
@@ -199,23 +217,15 @@ impl Definition for Remark {
             reason: "relative 1e-14, and the error of the extrapolation".to_owned(),
         };
         let (t_limit, theta_limit) = (value("t_limit")?, value("theta_limit")?);
-        let claim = |id: &str, place: &str, statement: &str, evidence: Evidence, note: &str| Claim {
-            id: id.to_owned(),
-            place: place.to_owned(),
-            statement: statement.to_owned(),
-            evidence,
-            note: note.to_owned(),
-        };
         let cusps = tables.get("cusps").map_err(unread)?;
         let column = |name: &str| cusps.f64s(name).map_err(unread);
         let (phi0, t1, theta) = (column("phi0")?, column("t1")?, column("theta")?);
         let (t_star, theta_star) = (value("t_star")?, value("theta_star")?);
-        let smaller: Vec<usize> = (0..cusps.rows())
-            .filter(|i| t1[*i] < t_star.value - t_star.error || theta[*i] < theta_star.value - theta_star.error)
-            .collect();
-        let example = smaller.first().map_or(String::new(), |i| {
-            format!("phi0 = {:?}: t1 = {:?}, theta = {:?}", phi0[*i], t1[*i], theta[*i])
-        });
+        let mut larger = Cases::default();
+        for i in 0..cusps.rows() {
+            let smaller = t1[i] < t_star.value - t_star.error || theta[i] < theta_star.value - theta_star.error;
+            larger.add(smaller, || format!("phi0 = {:?}: t1 = {:?}, theta = {:?}", phi0[i], t1[i], theta[i]));
+        }
         Ok(vec![
             claim(
                 "time",
@@ -242,17 +252,7 @@ impl Definition for Remark {
                 },
                 "On the equator θ' = p_θ/μ = A^(−1/2) A = √A, so θ* = √A t*; the printed value has one factor √A too many.",
             ),
-            claim(
-                "minimum",
-                "Remark 3.25",
-                "Over φ0, time and θ of the cusp are least at φ0 = 0.",
-                Evidence::Direct(Test::None {
-                    counterexamples: smaller.len() as u64,
-                    cases: cusps.rows() as u64,
-                    example,
-                }),
-                "",
-            ),
+            larger.claim("minimum", "Remark 3.25", "Over φ0, time and θ of the cusp are least at φ0 = 0.", ""),
             routes_agree(&second_routes(tables)?)?,
         ])
     }
@@ -296,19 +296,12 @@ mod tests {
 
     #[test]
     fn wrong_configs_are_refused_by_key() {
-        let params = |from: &str, to: &str| {
-            let text = include_str!("../../experiments/remark_3_25.toml").replace(from, to);
-            crate::contract::config::read::<Params>("f", &text).map_err(|error| error.to_string())
-        };
-        assert!(params("", "").is_ok());
-        for (from, to, key) in [
+        let cases = [
             ("A = 1.5", "A = 2.5", "scene.metric.serret-andoyer.B"),
             ("to = 1.2", "to = 1.6", "scene.start.phi0"),
             ("[0.4, 0.2, 0.1", "[0.4, 0.39, 0.1", "limit.phi0[1]"),
             ("\"conjugate-locus\"]", "\"attitude\"]", "scene.effects[0]"),
-        ] {
-            let refused = params(from, to).unwrap_err();
-            assert!(refused.contains(key), "{refused}");
-        }
+        ];
+        preview::refuses::<Params>(include_str!("../../experiments/remark_3_25.toml"), &cases);
     }
 }

@@ -3,6 +3,7 @@
 //! A branch is `p_φ(0) = −2`, `p_θ(0) ≥ 0`. For equal k and equal sampling all figures ask for equal nodes, so the work is done once. The other
 //! three branches are mirror images, made here: `p_θ < 0` is `θ → −θ`, `p_φ = +2` is `φ → π − φ`.
 
+use super::findings::{claim, unread, value};
 use super::nodes::{Nodes, TableRef};
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
@@ -19,7 +20,7 @@ use crate::plot::axis::Axis;
 use crate::plot::mark::Curve;
 use crate::plot::picture::{Inset, Place};
 use crate::plot::role::Role;
-use crate::table::{Table, TableError, Tables};
+use crate::table::{Table, Tables};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// The table of a branch.
@@ -30,11 +31,6 @@ pub const BY_INTEGRATION: &str = "conjugate-locus-by-integration";
 pub const DOUBLE_POINTS: &str = "double-points";
 /// The table of their second route.
 pub const DOUBLE_POINTS_BY_INTEGRATION: &str = "double-points-by-integration";
-
-/// A table that can't be read the way an experiment reads it.
-pub fn unread(error: TableError) -> NodeError {
-    NodeError::new(error.to_string())
-}
 
 /// The name of a table of one k.
 pub fn name_of(table: &str, k: f64) -> String {
@@ -159,21 +155,16 @@ pub fn double_point_values(points: &[DoublePoint]) -> Vec<NamedValue> {
         let rank = points[..i].iter().filter(|other| other.k == point.k).count();
         let number = if rank > 0 { format!("_{}", rank + 1) } else { String::new() };
         let [(p_a, a), (p_b, b)] = point.p_theta;
-        for (name, value, unit, error, meaning) in [
+        for (name, found, unit, error, meaning) in [
             ("p_a", p_a, "1", a * p_a, "smaller p_theta of the double point of the branch"),
             ("p_b", p_b, "1", b * p_b, "larger p_theta of the double point of the branch"),
             ("theta", point.place.0, "rad", point.error, "θ of the double point of the branch"),
             ("phi", point.place.1, "rad", point.error, "φ of the double point of the branch"),
         ] {
-            values.push(NamedValue {
-                name: format!("double_point{number}_{name}_k={:?}", point.k),
-                value,
-                unit: unit.to_owned(),
-                meaning: format!("{meaning}, k = {:?}", point.k),
-                route: "Newton on two momenta with equal conjugate points (closed form); integration as second route"
-                    .to_owned(),
-                error,
-            });
+            let (name, meaning) =
+                (format!("double_point{number}_{name}_k={:?}", point.k), format!("{meaning}, k = {:?}", point.k));
+            let route = "Newton on two momenta with equal conjugate points (closed form); integration as second route";
+            values.push(value(name, (found, error), unit, meaning, route));
         }
     }
     values
@@ -332,13 +323,10 @@ pub fn turned(points: &[(f64, f64)], turns: f64) -> Vec<(f64, f64)> {
 
 /// The cusp of each branch: conjugate time and φ in the limit `p_θ → 0`, which is the ordinary point `p_θ = 0`.
 pub fn cusp_values(branches: &[Branch<'_>]) -> Vec<NamedValue> {
-    let value = |name: &str, k: f64, value: f64, unit: &str, meaning: &str, error: f64| NamedValue {
-        name: format!("{name}_k={k:?}"),
-        value,
-        unit: unit.to_owned(),
-        meaning: format!("{meaning}, k = {k:?}"),
-        route: "closed form at p_theta = 0; integration of the lift as second route".to_owned(),
-        error,
+    let of_cusp = |name: &str, k: f64, number: f64, unit: &str, meaning: &str, error: f64| {
+        let (name, meaning) = (format!("{name}_k={k:?}"), format!("{meaning}, k = {k:?}"));
+        let route = "closed form at p_theta = 0; integration of the lift as second route";
+        value(name, (number, error), unit, meaning, route)
     };
     branches
         .iter()
@@ -347,8 +335,8 @@ pub fn cusp_values(branches: &[Branch<'_>]) -> Vec<NamedValue> {
             // On the meridian φ changes at unit rate.
             let error = t1 * branch.error[0];
             [
-                value("cusp_t1", k, t1, "time", "first conjugate time in the limit p_theta → 0", error),
-                value(
+                of_cusp("cusp_t1", k, t1, "time", "first conjugate time in the limit p_theta → 0", error),
+                of_cusp(
                     "cusp_phi",
                     k,
                     branch.phi[0],
@@ -378,21 +366,18 @@ fn rows_of(table: &Table) -> Result<impl Iterator<Item = (f64, f64)>, NodeError>
 /// # Errors
 /// A table of another form.
 pub fn largest_route_difference(tables: &Tables) -> Result<NamedValue, NodeError> {
-    let (mut value, mut rows): (f64, usize) = (0.0, 0);
+    let (mut worst, mut rows): (f64, usize) = (0.0, 0);
     for table in second_routes(tables) {
-        value = rows_of(table)?.fold(value, |largest, (difference, _)| largest.max(difference));
+        worst = rows_of(table)?.fold(worst, |largest, (difference, _)| largest.max(difference));
         rows += table.rows();
     }
-    Ok(NamedValue {
-        name: "largest_route_difference".to_owned(),
-        value,
-        unit: "1".to_owned(),
-        meaning: format!(
-            "largest relative difference of t1 between closed form and integration, {rows} conjugate times"
-        ),
-        route: "closed form against the lift by power series (f64, double-double where rounding would show)".to_owned(),
-        error: 4.0 * f64::EPSILON,
-    })
+    Ok(value(
+        "largest_route_difference",
+        (worst, 4.0 * f64::EPSILON),
+        "1",
+        format!("largest relative difference of t1 between closed form and integration, {rows} conjugate times"),
+        "closed form against the lift by power series (f64, double-double where rounding would show)",
+    ))
 }
 
 /// The claim that the routes agree for every conjugate time, each within what is allowed for it.
@@ -407,20 +392,17 @@ pub fn routes_agree(tables: &Tables) -> Result<Claim, NodeError> {
             largest_allowed = largest_allowed.max(allowed);
         }
     }
-    Ok(Claim {
-        id: "routes_agree".to_owned(),
-        place: "all conjugate times of this experiment".to_owned(),
-        statement: "Closed form and integration give the same first conjugate times.".to_owned(),
-        evidence: Evidence::Direct(Test::AtMost {
-            measured: worst,
-            tolerance: 1.0,
-            reason: format!(
-                "difference in units of what is allowed: 1e-12 relative, or the closed form's own error bound beside vertical \
-                 tangents of t1 (at most {largest_allowed:.1e})"
-            ),
-        }),
-        note: String::new(),
-    })
+    let reason = format!(
+        "difference in units of what is allowed: 1e-12 relative, or the closed form's own error bound beside vertical tangents of t1 (at \
+         most {largest_allowed:.1e})"
+    );
+    Ok(claim(
+        "routes_agree",
+        "all conjugate times of this experiment",
+        "Closed form and integration give the same first conjugate times.",
+        Evidence::Direct(Test::AtMost { measured: worst, tolerance: 1.0, reason }),
+        "",
+    ))
 }
 
 /// The claim of a contact of order two at the start: `θ ~ x0/(2k) (φ − π/2)²` with `tan x0 = x0`.
@@ -433,41 +415,19 @@ pub fn contact(branches: &[Branch<'_>]) -> Claim {
         measured = measured.max((ratio - 1.0).abs());
         tolerance = tolerance.max(100.0 / (branch.p_theta[last] * branch.p_theta[last]));
     }
-    Claim {
-        id: "contact_of_order_two".to_owned(),
-        place: "section 5.2".to_owned(),
-        statement: "For p_θ(0) → ∞ the conjugate locus has a contact of order two at the initial point.".to_owned(),
-        evidence: Evidence::Direct(Test::AtMost {
+    claim(
+        "contact_of_order_two",
+        "section 5.2",
+        "For p_θ(0) → ∞ the conjugate locus has a contact of order two at the initial point.",
+        Evidence::Direct(Test::AtMost {
             measured,
             tolerance,
             reason: "largest |2k θ/(x0 (φ − π/2)²) − 1| at the largest p_θ of each k, tan x0 = x0; the next term is of order 1/p_θ²"
                 .to_owned(),
         }),
-        note: "The model at the start is the Grushin plane, whose conjugate points are x = −(2k/p_θ) sin x0, θ = 2k (x0 − sin x0 cos \
-               x0)/p_θ², so θ/x² = x0/(2k): a parabola tangent to the meridian, one for each sign of p_θ."
-            .to_owned(),
-    }
-}
-
-/// A claim that has no counterexample among some cases.
-pub fn no_counterexample(
-    (id, place, statement): (&str, &str, &str),
-    cases: impl IntoIterator<Item = (bool, String)>,
-    note: &str,
-) -> Claim {
-    let cases: Vec<(bool, String)> = cases.into_iter().collect();
-    let counterexamples: Vec<&String> = cases.iter().filter(|(holds, _)| !holds).map(|(_, case)| case).collect();
-    Claim {
-        id: id.to_owned(),
-        place: place.to_owned(),
-        statement: statement.to_owned(),
-        evidence: Evidence::Direct(Test::None {
-            counterexamples: counterexamples.len() as u64,
-            cases: cases.len() as u64,
-            example: counterexamples.first().map_or(String::new(), |case| (*case).clone()),
-        }),
-        note: note.to_owned(),
-    }
+        "The model at the start is the Grushin plane, whose conjugate points are x = −(2k/p_θ) sin x0, θ = 2k (x0 − sin x0 cos \
+               x0)/p_θ², so θ/x² = x0/(2k): a parabola tangent to the meridian, one for each sign of p_θ.",
+    )
 }
 
 /// Checks that the three figures share.
@@ -477,7 +437,7 @@ pub mod tests {
     use crate::contract::claim::Evidence;
     use crate::contract::plan::{ConfigSource, Plan};
     use crate::experiments::definition::Experiment;
-    use crate::experiments::preview::Preview;
+    use crate::experiments::preview::{Preview, refuses};
     use crate::experiments::{fig5, fig7, fig8};
 
     /// Every value with a reference is within its own error bound of it, and all have one but the difference of the routes.
@@ -565,28 +525,30 @@ pub mod tests {
 
     #[test]
     fn wrong_configs_are_refused_by_key() {
-        for (experiment, from, to, key) in [
-            (&fig7::EXPERIMENT, "0.1] }", "1.1] }", "scene.metric.spin.k[3]"),
-            (&fig7::EXPERIMENT, "0.1] }", "-0.1] }", "scene.metric.spin.k[3]"),
-            (&fig7::EXPERIMENT, "from = 1e-9", "from = 0.0", "scene.start.p_theta.from"),
-            (&fig7::EXPERIMENT, "to = 1e4", "to = 1.0", "scene.start.p_theta.to"),
-            (&fig7::EXPERIMENT, "step = 0.1 ", "step = 1.0 ", "scene.start.p_theta.step"),
-            (&fig7::EXPERIMENT, "step = 0.15", "step = nan", "trajectories.step"),
-            (&fig7::EXPERIMENT, "count = 15", "count = 0", "trajectories.count"),
-            (&fig7::EXPERIMENT, "count = 15", "cuont = 15", "cuont"),
-            (&fig8::EXPERIMENT, "k = [1.0, 1.18]", "k = [1.0, 1.19]", "panels[1].k[1]"),
-            (&fig8::EXPERIMENT, "k = [1.0, 1.18]", "k = [1.0]", "scene.metric.spin.k[3]"),
-            (&fig8::EXPERIMENT, "[\"conjugate-locus\"]", "[\"attitude\"]", "scene.effects[0]"),
-            (&fig8::EXPERIMENT, "latitude = -35.0", "latitude = -135.0", "panels[0].latitude"),
-            (&fig5::EXPERIMENT, "[1.0, 1.05, 1.1, ", "[0.9, 1.05, 1.1, ", "scene.metric.spin.k[0]"),
-            (&fig5::EXPERIMENT, "size = [0.5, 0.5]", "size = [0.5, 1.5]", "panels[0].inset.size[1]"),
-            (&fig5::EXPERIMENT, "to = 1.425", "to = 0.5", "loops.k.to"),
-        ] {
-            let text = config(experiment);
-            assert!(text.contains(from), "{from}");
-            let refused = plan(experiment, text.replacen(from, to, 1)).unwrap_err();
-            assert!(refused.contains(key), "{key} in {refused}");
-        }
+        let cases = [
+            ("0.1] }", "1.1] }", "scene.metric.spin.k[3]"),
+            ("0.1] }", "-0.1] }", "scene.metric.spin.k[3]"),
+            ("from = 1e-9", "from = 0.0", "scene.start.p_theta.from"),
+            ("to = 1e4", "to = 1.0", "scene.start.p_theta.to"),
+            ("step = 0.1 ", "step = 1.0 ", "scene.start.p_theta.step"),
+            ("step = 0.15", "step = nan", "trajectories.step"),
+            ("count = 15", "count = 0", "trajectories.count"),
+            ("count = 15", "cuont = 15", "cuont"),
+        ];
+        refuses::<fig7::Params>(&config(&fig7::EXPERIMENT), &cases);
+        let cases = [
+            ("k = [1.0, 1.18]", "k = [1.0, 1.19]", "panels[1].k[1]"),
+            ("k = [1.0, 1.18]", "k = [1.0]", "scene.metric.spin.k[3]"),
+            ("[\"conjugate-locus\"]", "[\"attitude\"]", "scene.effects[0]"),
+            ("latitude = -35.0", "latitude = -135.0", "panels[0].latitude"),
+        ];
+        refuses::<fig8::Params>(&config(&fig8::EXPERIMENT), &cases);
+        let cases = [
+            ("[1.0, 1.05, 1.1, ", "[0.9, 1.05, 1.1, ", "scene.metric.spin.k[0]"),
+            ("size = [0.5, 0.5]", "size = [0.5, 1.5]", "panels[0].inset.size[1]"),
+            ("to = 1.425", "to = 0.5", "loops.k.to"),
+        ];
+        refuses::<fig5::Params>(&config(&fig5::EXPERIMENT), &cases);
     }
 
     #[test]

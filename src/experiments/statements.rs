@@ -5,7 +5,7 @@
 //! cases have no such ratio and are not drawn.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::unread;
+use super::findings::{claim, unread, value};
 use super::nodes::Nodes;
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
@@ -72,7 +72,7 @@ const FINDINGS: Kind = findings_kind(
         "experiments/findings.rs",
         "experiments/scenes",
         "experiments/spin_branches.rs",
-            "table",
+        "table",
     ],
 );
 
@@ -115,14 +115,17 @@ impl Definition for Every {
             rows.push((group.replace('-', " "), shown("margin")?, shown("least_wrong_margin")?));
         }
         let ticks = rows.iter().enumerate().map(|(i, (name, ..))| (i as f64, Label::from(name.as_str())));
-        let decades = [(-6, "10^{−6}"), (-3, "10^{−3}"), (0, "1"), (4, "10^4"), (8, "10^8"), (12, "10^{12}"), (16, "10^{16}")];
+        let decades =
+            [(-6, "10^{−6}"), (-3, "10^{−3}"), (0, "1"), (4, "10^4"), (8, "10^8"), (12, "10^{12}"), (16, "10^{16}")];
         let x = Axis::new("measured over allowed")
             .log()
             .fixed(low / 3.0, high * 3.0)
             .ticks_at(decades.map(|(n, words)| (libm::pow(10.0, f64::from(n)), words)));
         let y = Axis::new("").fixed(-0.6, rows.len().max(1) as f64 - 0.4).ticks_at(ticks).reversed();
         let mut panel = Panel::new(x, y).mark(RuleLine::vertical(Role::Reference, 1.0));
-        let at = |values: &[f64], shift: f64, row: usize| values.iter().map(|x| (*x, row as f64 + shift)).collect::<Vec<_>>();
+        let at = |values: &[f64], shift: f64, row: usize| {
+            values.iter().map(|x| (*x, row as f64 + shift)).collect::<Vec<_>>()
+        };
         let mut right = Vec::new();
         let mut wrong = Vec::new();
         for (row, (_, own, least)) in rows.iter().enumerate() {
@@ -150,18 +153,11 @@ impl Definition for Every {
             wrong += table.ints("wrong_forms").map_err(unread)?.iter().sum::<i64>();
             refused += table.ints("refused").map_err(unread)?.iter().sum::<i64>();
         }
-        let value = |name: &str, value: f64, meaning: &str| NamedValue {
-            name: name.to_owned(),
-            value,
-            unit: "1".to_owned(),
-            meaning: meaning.to_owned(),
-            route: "counted".to_owned(),
-            error: 0.0,
-        };
+        let count = |name: &str, count: f64, meaning: &str| value(name, (count, 0.0), "1", meaning, "counted");
         Ok(vec![
-            value("statements", statements as f64, "statements of the article that have a check"),
-            value("wrong_forms", wrong as f64, "forms of them that are wrong on purpose"),
-            value("wrong_forms_refused", refused as f64, "of these, those that the same check refused"),
+            count("statements", statements as f64, "statements of the article that have a check"),
+            count("wrong_forms", wrong as f64, "forms of them that are wrong on purpose"),
+            count("wrong_forms_refused", refused as f64, "of these, those that the same check refused"),
         ])
     }
 
@@ -185,13 +181,13 @@ impl Definition for Every {
                 }
             }
         }
-        claims.push(Claim {
-            id: "no_wrong_form_survives".to_owned(),
-            place: "not in the article: how statements are checked".to_owned(),
-            statement: "Every form that is wrong on purpose is refused by the check that accepts the claimed one.".to_owned(),
-            evidence: Evidence::Direct(Test::None { counterexamples: survivors, cases, example }),
-            note: String::new(),
-        });
+        claims.push(claim(
+            "no_wrong_form_survives",
+            "not in the article: how statements are checked",
+            "Every form that is wrong on purpose is refused by the check that accepts the claimed one.",
+            Evidence::Direct(Test::None { counterexamples: survivors, cases, example }),
+            "",
+        ));
         Ok(claims)
     }
 }
@@ -213,8 +209,7 @@ mod tests {
 
     #[test]
     fn an_unknown_group_is_refused_by_key() {
-        let text = include_str!("../../experiments/statements.toml").replace("groups = []", "groups = [\"nothing\"]");
-        let refused = crate::contract::config::read::<Params>("f", &text).unwrap_err().to_string();
-        assert!(refused.contains("groups[0]"), "{refused}");
+        let text = include_str!("../../experiments/statements.toml");
+        preview::refuses::<Params>(text, &[("groups = []", "groups = [\"nothing\"]", "groups[0]")]);
     }
 }

@@ -4,7 +4,7 @@
 //! conjugate locus has its cusp (Theorem 3.24).
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::unread;
+use super::findings::{claim, unread, value};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
@@ -119,14 +119,8 @@ impl Definition for Template {
     fn values(_: &Params, tables: &Tables) -> Result<Vec<NamedValue>, NodeError> {
         let t1 = tables.get("cusps").map_err(unread)?.f64s("t1").map_err(unread)?;
         let least = t1.iter().copied().fold(f64::INFINITY, f64::min);
-        Ok(vec![NamedValue {
-            name: "least_time".into(),
-            value: least,
-            unit: "length".into(),
-            meaning: "least time of a cusp among the starts".into(),
-            route: "closed form".into(),
-            error: 1e-14 * least,
-        }])
+        let meaning = "least time of a cusp among the starts";
+        Ok(vec![value("least_time", (least, 1e-14 * least), "length", meaning, "closed form")])
     }
 
     // Statements, with the evidence that the tables hold. A verdict is never written: it follows from the evidence.
@@ -134,16 +128,12 @@ impl Definition for Template {
         let Inertia { a, b, c } = params.scene.metric.serret_andoyer;
         let least = Self::values(params, tables)?[0].value;
         let bound = std::f64::consts::PI * (a / ((b - a) * (c - a))).sqrt();
-        Ok(vec![Claim {
-            id: "lower_bound".into(),
-            place: "Theorem 3.9, part 2".into(),
-            statement: "No first conjugate time is below π√A/√((B−A)(C−A)).".into(),
-            evidence: Evidence::Direct(Test::AtMost {
-                measured: bound / least - 1.0,
-                tolerance: 1e-14,
-                reason: "rounding of the closed form".into(),
-            }),
-            note: String::new(),
-        }])
+        let test = Test::AtMost {
+            measured: bound / least - 1.0,
+            tolerance: 1e-14,
+            reason: "rounding of the closed form".to_owned(),
+        };
+        let statement = "No first conjugate time is below π√A/√((B−A)(C−A)).";
+        Ok(vec![claim("lower_bound", "Theorem 3.9, part 2", statement, Evidence::Direct(test), "")])
     }
 }

@@ -1,14 +1,14 @@
 //! Theorem 3.9 (section 3.2.2): bounds of the first conjugate time `t1` along oscillating extremals, its infimum and its limit.
 //!
-//! Part 1: `2K(m)/M ≤ t1 < 3K(m)/M`. The lower bound holds and is attained at turning points. The upper one holds when, as before Lemma 3.4, `t1`
-//! means the smaller `|t|` of both signs; for the first `t > 0` it does not: there `M t1 < 4K − ψ0`, with ψ0 the phase since the last turning point, and
+//! Part 1: `2K(m)/M ≤ t1 < 3K(m)/M`. The lower bound holds and is attained at turning points. The upper one holds as stated: `t1` is defined before
+//! Lemma 3.4 as the smaller `|t|` of both signs; for the first `t > 0` alone it does not: there `M t1 < 4K − ψ0`, with ψ0 the phase since the last turning point, and
 //! the supremum of `M t1/K` is 4, approached like `4 − ln 3/K` for `ξ1 → 1`. Part 2: the least `t1` is `π√A/√(2h(B−A)(C−A))`, and
 //! `t1 → ∞` at the separatrix. Time is arc length (`h = 1/2`) except for the named start, which has its own h; lengths as in the Darboux chart.
 //!
 //! Hard spots: starts near turning points and `ξ1` near 1, where t1 M/K climbs from 2 to nearly 4 within a phase of order 1/K.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{largest_route_difference, quantities, routes_agree, unread};
+use super::findings::{Cases, claim, largest_route_difference, named, quantities, routes_agree, unread, value};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
@@ -16,7 +16,7 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
-use crate::effects::scene::{Effect, Inertia, OscillatingStart, Scene, SerretAndoyerMetric, SERRET_ANDOYER};
+use crate::effects::scene::{Effect, Inertia, OscillatingStart, SERRET_ANDOYER, Scene, SerretAndoyerMetric};
 use crate::effects::serret_andoyer::by_integration::{self, ConjugatePointsByIntegration};
 use crate::effects::serret_andoyer::conjugate_locus::{ConjugateLocus, Spacing};
 use crate::effects::serret_andoyer::conjugate_time_bounds::ConjugateTimeBounds;
@@ -127,9 +127,31 @@ const OWN: [Effect; 1] = [Effect::ConjugateLocus];
 /// The experiment.
 pub const EXPERIMENT: Experiment = Experiment::of::<Theorem>();
 
-const PICTURE: Kind = picture_kind("theorem_3_9-picture", &["experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/theorem_3_9.rs", "plot", "table"]);
-const FINDINGS: Kind =
-    findings_kind("theorem_3_9-findings", &["contract/claim.rs", "contract/value.rs", "experiments/definition.rs", "experiments/scenes", "experiments/spin_branches.rs", "experiments/findings.rs", "experiments/theorem_3_9.rs", "table"]);
+const PICTURE: Kind = picture_kind(
+    "theorem_3_9-picture",
+    &[
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/theorem_3_9.rs",
+        "plot",
+        "table",
+    ],
+);
+const FINDINGS: Kind = findings_kind(
+    "theorem_3_9-findings",
+    &[
+        "contract/claim.rs",
+        "contract/value.rs",
+        "experiments/definition.rs",
+        "experiments/scenes",
+        "experiments/spin_branches.rs",
+        "experiments/findings.rs",
+        "experiments/theorem_3_9.rs",
+        "table",
+    ],
+);
 
 struct Theorem;
 
@@ -234,11 +256,7 @@ impl Definition for Theorem {
         );
         let formulas = tables.get("equator-conjugate-point").map_err(unread)?;
         let t_star = formulas.lookup("quantity", "t_star", "value").map_err(unread)?;
-        let mut times = Panel::new(
-            Axis::new("*δ* = *B* *p*_*θ*^2 − 1").log(),
-            Axis::new("*t*_1").unit("length"),
-        )
-        .mark(
+        let mut times = Panel::new(Axis::new("*δ* = *B* *p*_*θ*^2 − 1").log(), Axis::new("*t*_1").unit("length")).mark(
             RuleLine::horizontal(Role::Reference, t_star)
                 .label(DirectLabel::new("π√*A*/√((*B*−*A*)(*C*−*A*))").at(At::Start).side(Side::Above)),
         );
@@ -256,8 +274,8 @@ impl Definition for Theorem {
             .caption(format!(
                 "Oscillating extremals of the Serret-Andoyer metric, A = {a}, B = {b}, C = {c}: first conjugate time t1 in units of K(m)/M \
                  against the phase ψ0 since the last turning point, for ξ1 = {}. (a) First t > 0. Dotted: the lower bound 2, attained at \
-                 turning points; the upper bound 3 as printed, which does not hold; the bound 4 − ψ0/K, which does. Triangle: h = {h}, y0 = \
-                 {y0}, ξ1 = {named_xi1}. (b) The smaller |t| of both signs, for which the printed bound holds. (c) t1 over all \
+                 turning points; the upper bound 3, which does not hold for t > 0 alone; the bound 4 − ψ0/K, which does. Triangle: h = {h}, y0 = \
+                 {y0}, ξ1 = {named_xi1}. (b) The smaller |t| of both signs, which the article means and for which its bound holds. (c) t1 over all \
                  oscillating constants p_θ, both branches, for the starts φ0 = {}: it is least on the equator (dashed: \
                  π√A/√((B−A)(C−A))) and grows like log(1/δ) towards the separatrix. {} starts for each ξ1; closed form, equation (15) without \
                  poles, relative error 1e-14; every time checked by integrating the flow (9).",
@@ -275,10 +293,8 @@ impl Definition for Theorem {
         let formulas = quantities(tables.get("equator-conjugate-point").map_err(unread)?)?;
         values.extend(formulas.into_iter().filter(|value| value.name == "t_star"));
         let grid = Grid::read(params, tables)?;
-        let mut add = |name: &str, value: f64, error: f64, unit: &str, meaning: &str, route: &str| {
-            let (name, unit, meaning, route) =
-                (name.to_owned(), unit.to_owned(), meaning.to_owned(), route.to_owned());
-            values.push(NamedValue { name, value, unit, meaning, route, error });
+        let mut add = |name: &str, number: f64, error: f64, unit: &str, meaning: &str, route: &str| {
+            values.push(value(name, (number, error), unit, meaning, route));
         };
         let closed = "closed form, equation (15) without poles";
         add("grid_smallest_ratio", grid.smallest, RATIO_ERROR, "1", "smallest t1 M/K of the grid", closed);
@@ -308,28 +324,25 @@ impl Definition for Theorem {
     fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
         let grid = Grid::read(params, tables)?;
         let values = Self::values(params, tables)?;
-        let value = |name: &str| {
-            let found = values.iter().find(|value| value.name == name).map(|value| value.value);
-            found.ok_or_else(|| NodeError::new(format!("no value {name}")))
-        };
-        let claim = |id: &str, place: &str, statement: &str, evidence: Evidence, note: &str| Claim {
-            id: id.to_owned(),
-            place: place.to_owned(),
-            statement: statement.to_owned(),
-            evidence,
-            note: note.to_owned(),
-        };
+        let value = |name: &str| named(&values, name).map(|found| found.value);
         let at_most = |measured: f64, tolerance: f64, reason: &str| Test::AtMost {
             measured,
             tolerance,
             reason: reason.to_owned(),
         };
-        let none = |(counterexamples, example): &(u64, String)| Test::None {
-            counterexamples: *counterexamples,
-            cases: grid.cases,
-            example: example.clone(),
-        };
         let (t_star, least) = (value("t_star")?, value("smallest_time")?);
+        let Counterexample { h, y0, xi1 } = params.counterexample;
+        let minimum = if params.part_2.phi0.contains(&0.0) {
+            Evidence::Direct(at_most(
+                (least - t_star).abs() / t_star,
+                1e-14,
+                "relative error of the closed form's times: none of the sweep may be smaller, and the least is that of the equator",
+            ))
+        } else {
+            Evidence::NotChecked {
+                reason: "no start of the scene is on the equator, where the least time is attained".to_owned(),
+            }
+        };
         let part_1 = "Theorem 3.9, part 1";
         let part_2 = "Theorem 3.9, part 2";
         Ok(vec![
@@ -355,19 +368,30 @@ impl Definition for Theorem {
                 "upper_bound",
                 "Corollary 3.7; Theorem 3.9, part 1",
                 "t1 < 3K(m)/M.",
+                Evidence::Direct(grid.beyond_smaller.clone().test()),
+                "t1 is the smaller |t| of both signs, as defined before Lemma 3.4: forward it is below 4K − ψ0, backward below 2K + ψ0, in \
+                 units of 1/M.",
+            ),
+            claim(
+                "upper_bound_forward",
+                "proof of Theorem 3.24, after Theorem 3.9",
+                "The first conjugate time t > 0 is below 3K(m)/M, three quarters of a period.",
                 Evidence::OnlyWhen {
-                    condition: "t1 is the smaller |t| of both signs, as defined before Lemma 3.4".to_owned(),
-                    inside: none(&grid.beyond_smaller),
-                    outside: none(&grid.beyond),
+                    condition: "ψ0 ≥ K: the equator has been passed since the last turning point".to_owned(),
+                    inside: grid.beyond_late.clone().test(),
+                    outside: grid.beyond_early.clone().test(),
                 },
-                "For the first t > 0 the interval of Lemma 3.6 is (2K, 4K − ψ0], which is longer than 3K for ψ0 < K. Example: h = 1, y0 = 0.5, \
-                 ξ1 = 0.9 on the article's body has t1 M/K = 3.392….",
+                format!(
+                    "For t > 0 alone the interval of Lemma 3.6 is (2K, 4K − ψ0], which is longer than 3K for ψ0 < K. Example: h = {h:?}, y0 = \
+                     {y0:?}, ξ1 = {xi1:?} on this body has t1 M/K = {:.6}.",
+                    value("counterexample_ratio")?
+                ),
             ),
             claim(
                 "true_upper_bound",
                 part_1,
                 "For the first t > 0: M t1 < 4K − ψ0, with ψ0 the phase since the last turning point.",
-                Evidence::Direct(none(&grid.beyond_true)),
+                Evidence::Direct(grid.beyond_true.clone().test()),
                 "Not in the article: half a period plus the time to the first turning point.",
             ),
             claim(
@@ -378,7 +402,8 @@ impl Definition for Theorem {
                     printed: LN_3,
                     ours: value("supremum_rate")?,
                     tolerance: 1e-6,
-                    reason: "the limit ξ1 → 1 is approached like (1 − ξ1) K; rounding of 4 − t1 M/K, times K".to_owned(),
+                    reason: "the limit ξ1 → 1 is approached like (1 − ξ1) K; rounding of 4 − t1 M/K, times K"
+                        .to_owned(),
                 }),
                 "Not in the article: for m → 1 equation (15) becomes coth w = 4 − coth ψ0 with M t1 = 4K − ψ0 − w, largest at coth ψ0 = 2.",
             ),
@@ -386,11 +411,7 @@ impl Definition for Theorem {
                 "minimum",
                 part_2,
                 "The least first conjugate time is π√A/√(2h(B−A)(C−A)).",
-                Evidence::Direct(Test::AtMost {
-                    measured: (t_star - least) / t_star,
-                    tolerance: 1e-14,
-                    reason: "no time of the sweep over starts and constants may be smaller; rounding".to_owned(),
-                }),
+                minimum,
                 "An infimum over p_x > 0 and all starts: attained in the limit, on the equator only. From other starts the least t1 is T/2 at \
                  p_y = 0, which is larger.",
             ),
@@ -413,26 +434,28 @@ const RATIO_ERROR: f64 = 1e-14;
 
 /// What the grid of part 1 shows.
 struct Grid {
-    cases: u64,
     smallest: f64,
     largest: f64,
     largest_smaller: f64,
-    beyond: (u64, String),
-    beyond_smaller: (u64, String),
-    beyond_true: (u64, String),
+    /// Starts whose smaller |t| of both signs is not below 3K/M.
+    beyond_smaller: Cases,
+    /// Those whose first t > 0 is not, before and after the equator.
+    beyond_early: Cases,
+    beyond_late: Cases,
+    /// And those whose first t > 0 is not below (4K − ψ0)/M.
+    beyond_true: Cases,
 }
 
 impl Grid {
     fn read(params: &Params, tables: &Tables) -> Result<Self, NodeError> {
-        let nothing = (0, String::new());
         let mut grid = Self {
-            cases: 0,
             smallest: f64::INFINITY,
             largest: 0.0,
             largest_smaller: 0.0,
-            beyond: nothing.clone(),
-            beyond_smaller: nothing.clone(),
-            beyond_true: nothing,
+            beyond_smaller: Cases::default(),
+            beyond_early: Cases::default(),
+            beyond_late: Cases::default(),
+            beyond_true: Cases::default(),
         };
         for xi1 in params.scene.start.xi1.values() {
             let table = tables.get(&format!("bounds/xi1={xi1:?}")).map_err(unread)?;
@@ -440,22 +463,16 @@ impl Grid {
             let (phase, ratio, smaller) = (column("psi0_over_k")?, column("ratio")?, column("ratio_smaller")?);
             let upper = column("upper")?;
             for row in 0..table.rows() {
-                grid.cases += 1;
                 grid.smallest = grid.smallest.min(smaller[row]);
                 grid.largest = grid.largest.max(ratio[row]);
                 grid.largest_smaller = grid.largest_smaller.max(smaller[row]);
-                let example = |x: f64| format!("ξ1 = {xi1:?}, ψ0/K = {:?}: t1 M/K = {x:?}", phase[row]);
+                let forward = if phase[row] < 1.0 { &mut grid.beyond_early } else { &mut grid.beyond_late };
                 for (found, x, limit) in [
-                    (&mut grid.beyond, ratio[row], 3.0),
                     (&mut grid.beyond_smaller, smaller[row], 3.0),
+                    (forward, ratio[row], 3.0),
                     (&mut grid.beyond_true, ratio[row], upper[row]),
                 ] {
-                    if x >= limit {
-                        found.0 += 1;
-                        if found.1.is_empty() {
-                            found.1 = example(x);
-                        }
-                    }
+                    found.add(x >= limit, || format!("ξ1 = {xi1:?}, ψ0/K = {:?}: t1 M/K = {x:?}", phase[row]));
                 }
             }
         }
@@ -511,21 +528,17 @@ fn by_integration_allowed(params: &Params, tables: &Tables) -> Result<f64, NodeE
 
 /// Steps towards the separatrix, beyond δ = 1e-3, over which t1 does not grow.
 fn unbounded(params: &Params, tables: &Tables) -> Result<Test, NodeError> {
-    let (mut counterexamples, mut cases, mut example) = (0, 0, String::new());
+    let mut growing = Cases::default();
     for table in part_2_tables(params, tables, "conjugate-locus")? {
         let (delta, t1) = (table.f64s("delta").map_err(unread)?, table.f64s("t1").map_err(unread)?);
         for row in 1..table.rows() {
             let (far, near) = if delta[row] < delta[row - 1] { (row, row - 1) } else { (row - 1, row) };
             if delta[near] < 1e-3 {
-                cases += 1;
-                if t1[far] <= t1[near] {
-                    counterexamples += 1;
-                    example = format!("δ = {:?}: t1 = {:?}", delta[far], t1[far]);
-                }
+                growing.add(t1[far] <= t1[near], || format!("δ = {:?}: t1 = {:?}", delta[far], t1[far]));
             }
         }
     }
-    Ok(Test::None { counterexamples, cases, example })
+    Ok(growing.test())
 }
 
 #[cfg(test)]
@@ -563,17 +576,12 @@ mod tests {
 
     #[test]
     fn wrong_configs_are_refused_by_key() {
-        for (from, to, key) in [
+        let cases = [
             ("xi1 = [0.05,", "xi1 = [1.05,", "scene.start.xi1[0]"),
             ("[1e-3, 1e-6,", "[1e-6, 1e-3,", "supremum.one_minus_xi1[1]"),
             ("-1.2]", "0.0]", "part_2.phi0[2]"),
             ("xi1 = 0.9\n", "xi1 = 0.7\n", "counterexample.xi1"),
-        ] {
-            let text = include_str!("../../experiments/theorem_3_9.toml");
-            assert!(text.contains(from));
-            let read = crate::contract::config::read::<Params>("f", &text.replace(from, to));
-            let refused = read.unwrap_err().to_string();
-            assert!(refused.contains(key), "{refused}");
-        }
+        ];
+        preview::refuses::<Params>(include_str!("../../experiments/theorem_3_9.toml"), &cases);
     }
 }

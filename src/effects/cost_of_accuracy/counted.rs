@@ -15,6 +15,15 @@ use crate::table::{Data, Table};
 use rayon::prelude::*;
 use serde::Serialize;
 
+/// A division of `f64`, in multiplications of `f64`.
+pub const DIVISION: u64 = <f64 as Multiplications>::QUOTIENT;
+/// A square root of `f64`.
+pub const ROOT: u64 = <f64 as Multiplications>::ROOT;
+/// A value of an elementary function of `f64`.
+pub const FUNCTION: u64 = <f64 as Multiplications>::FUNCTION;
+/// A product in double-double.
+pub const DOUBLE_DOUBLE_PRODUCT: u64 = <DoubleDouble as Multiplications>::PRODUCT;
+
 /// The comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CostOfAccuracy<P> {

@@ -12,6 +12,7 @@ pub mod double_points;
 pub mod geodesics;
 pub mod loops;
 pub mod momenta;
+pub mod monotone_theta;
 pub mod starts;
 pub mod wave_front;
 pub mod wave_front_by_integration;

@@ -3,7 +3,7 @@
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::node::NodeError;
 use crate::contract::value::NamedValue;
-use crate::experiments::findings::unread;
+use crate::experiments::findings::{claim, unread, value};
 use crate::table::{Table, Tables};
 
 /// A second route among the tables of a scene: where its tables are, and what is compared.
@@ -28,13 +28,10 @@ fn tables_of<'a>(tables: &'a Tables, node: &str) -> Vec<(&'a str, &'a Table)> {
 pub fn counts(tables: &Tables, nodes: &[&str]) -> Vec<NamedValue> {
     let found = nodes.iter().flat_map(|node| tables_of(tables, node));
     found
-        .map(|(name, table)| NamedValue {
-            name: format!("points_{}", name.replace(['-', '/'], "_")),
-            value: table.rows() as f64,
-            unit: "1".to_owned(),
-            meaning: format!("points of {name}: {}", table.meaning()),
-            route: "counted".to_owned(),
-            error: 0.0,
+        .map(|(name, table)| {
+            let (name, meaning) =
+                (format!("points_{}", name.replace(['-', '/'], "_")), format!("points of {name}: {}", table.meaning()));
+            value(name, (table.rows() as f64, 0.0), "1", meaning, "counted")
         })
         .collect()
 }
@@ -46,21 +43,20 @@ pub fn counts(tables: &Tables, nodes: &[&str]) -> Vec<NamedValue> {
 pub fn differences(tables: &Tables, routes: &[SecondRoute]) -> Result<Vec<NamedValue>, NodeError> {
     let mut values = Vec::new();
     for SecondRoute { node, difference, what } in routes {
-        let (mut value, mut rows): (f64, usize) = (0.0, 0);
+        let (mut worst, mut rows): (f64, usize) = (0.0, 0);
         for (_, table) in tables_of(tables, node) {
-            value = table.f64s(difference).map_err(unread)?.iter().copied().fold(value, f64::max);
+            worst = table.f64s(difference).map_err(unread)?.iter().copied().fold(worst, f64::max);
             rows += table.rows();
         }
         if rows > 0 {
-            values.push(NamedValue {
-                name: format!("largest_route_difference_{}", node.replace('-', "_")),
-                value,
-                unit: "1".to_owned(),
-                meaning: format!("largest difference of {what} between the two routes, {rows} rows"),
-                route: "first route against integration (f64, double-double where rounding would show)".to_owned(),
+            values.push(value(
+                format!("largest_route_difference_{}", node.replace('-', "_")),
                 // The differences of nearby numbers are exact; their own rounding is that of the two routes.
-                error: 4.0 * f64::EPSILON,
-            });
+                (worst, 4.0 * f64::EPSILON),
+                "1",
+                format!("largest difference of {what} between the two routes, {rows} rows"),
+                "first route against integration (f64, double-double where rounding would show)",
+            ));
         }
     }
     Ok(values)
@@ -87,18 +83,14 @@ pub fn agreement(tables: &Tables, routes: &[SecondRoute], id: &str) -> Result<Op
             }
         }
     }
-    let claim = Claim {
-        id: id.to_owned(),
-        place: "all second routes of this scene".to_owned(),
-        statement: format!("Two independent routes give the same {}.", compared.join(" and ")),
-        evidence: Evidence::Direct(Test::AtMost {
-            measured: worst,
-            tolerance: 1.0,
-            reason: format!(
-                "difference in units of what is allowed for the row, at most {largest_allowed:.1e}; {rows} rows"
-            ),
-        }),
-        note: String::new(),
+    let test = Test::AtMost {
+        measured: worst,
+        tolerance: 1.0,
+        reason: format!(
+            "difference in units of what is allowed for the row, at most {largest_allowed:.1e}; {rows} rows"
+        ),
     };
-    Ok((rows > 0).then_some(claim))
+    let statement = format!("Two independent routes give the same {}.", compared.join(" and "));
+    let agreed = claim(id, "all second routes of this scene", statement, Evidence::Direct(test), "");
+    Ok((rows > 0).then_some(agreed))
 }
