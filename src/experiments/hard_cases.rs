@@ -15,6 +15,7 @@ use crate::contract::claim::Claim;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Compute, Kind, NodeError};
 use crate::contract::value::NamedValue;
+use crate::effects::hard_cases::family::Refused;
 use crate::effects::hard_cases::rotation_group::{self, HardCasesRotationGroup};
 use crate::effects::hard_cases::serret_andoyer::{self, HardCasesSerretAndoyer};
 use crate::effects::hard_cases::spin::{self, HardCasesSpin};
@@ -73,17 +74,16 @@ pub struct Swept<F> {
     pub to: f64,
 }
 
-impl<F> Swept<F> {
-    fn validate(&self, key: &str) -> Result<(), Invalid> {
-        let Self { from, to, .. } = *self;
-        Invalid::number(from > 0.0 && from <= 1.0, format!("{key}.from"), from, "above 0, at most 1")?;
-        let accepted = format!("at least 1e-300, below {from:?}");
-        Invalid::number(to >= 1e-300 && to < from, format!("{key}.to"), to, accepted.as_str())
-    }
-}
-
-fn validate_all<F>(families: &[Swept<F>], metric: &str) -> Result<(), Invalid> {
-    families.iter().enumerate().try_for_each(|(i, swept)| swept.validate(&format!("{metric}.families[{i}]")))
+/// Refuses a sweep that its family does not accept.
+fn validate_all<F>(
+    families: &[Swept<F>],
+    metric: &str,
+    validate: impl Fn(&Swept<F>) -> Result<(), Refused>,
+) -> Result<(), Invalid> {
+    families.iter().enumerate().try_for_each(|(i, swept)| {
+        let key = format!("{metric}.families[{i}]");
+        validate(swept).map_err(|Refused { key: at, found, accepted }| Invalid::new(at, found, accepted).within(&key))
+    })
 }
 
 /// Refuses a family, with its parameters, that stands twice.
@@ -106,9 +106,10 @@ impl Validate for Params {
         Invalid::unless((1..=50).contains(&self.per_decade), "per_decade", self.per_decade, "1 to 50")?;
         self.serret_andoyer.body.validate("serret-andoyer.body")?;
         self.rotation_group.body.validate("rotation-group.body")?;
-        validate_all(&self.serret_andoyer.families, "serret-andoyer")?;
-        validate_all(&self.spin.families, "spin")?;
-        validate_all(&self.rotation_group.families, "rotation-group")?;
+        let body = self.serret_andoyer.body.into();
+        validate_all(&self.serret_andoyer.families, "serret-andoyer", |s| s.family.validate(body, s.from, s.to))?;
+        validate_all(&self.spin.families, "spin", |s| s.family.validate(s.from, s.to))?;
+        validate_all(&self.rotation_group.families, "rotation-group", |s| s.family.validate(s.from, s.to))?;
         once(&self.serret_andoyer.families, "serret-andoyer", serret_andoyer::Family::name)?;
         once(&self.spin.families, "spin", |family| family.name())?;
         once(&self.rotation_group.families, "rotation-group", rotation_group::Family::name)
@@ -222,7 +223,7 @@ impl Definition for HardCases {
         let per_decade = params.per_decade;
         for (i, Swept { family, from, to }) in params.serret_andoyer.families.iter().copied().enumerate() {
             let body = params.serret_andoyer.body.into();
-            let cases = HardCasesSerretAndoyer { family, body, from, to, per_decade: per_decade as usize };
+            let cases = HardCasesSerretAndoyer { family, body, from, to, per_decade };
             add(nodes, (SERRET_ANDOYER, family.name(), axes(&family)), i, cases)?;
         }
         for (i, Swept { family, from, to }) in params.spin.families.iter().copied().enumerate() {
@@ -231,7 +232,7 @@ impl Definition for HardCases {
         }
         for (i, Swept { family, from, to }) in params.rotation_group.families.iter().copied().enumerate() {
             let body = params.rotation_group.body.into();
-            let cases = HardCasesRotationGroup { family, body, from, to, per_decade: per_decade as usize };
+            let cases = HardCasesRotationGroup { family, body, from, to, per_decade };
             add(nodes, (ROTATION_GROUP, family.name(), axes(&family)), i, cases)?;
         }
         Ok(())
@@ -414,6 +415,14 @@ mod tests {
             ("from = 0.1", "from = 2.0", "serret-andoyer.families[0].from"),
             ("to = 1e-15", "to = 0.5", "serret-andoyer.families[0].to"),
             ("\"cusp\"", "\"cups\"", "families"),
+            ("from = 0.05, to = 1e-16", "from = 0.5, to = 1e-16", "serret-andoyer.families[2].from"),
+            (
+                "family = \"long-time\", from = 1.0, to = 1e-4",
+                "family = \"long-time\", from = 1.0, to = 1e-5",
+                "rotation-group.families[9].to",
+            ),
+            ("{ k = 0.05 }", "{ k = -0.05 }", "spin.families[0].family.small-momentum.k"),
+            ("passage = 2", "passage = 9", "spin.families[8].family.pole.passage"),
         ];
         preview::refuses::<Params>(include_str!("../../experiments/hard_cases.toml"), &cases);
     }

@@ -1,17 +1,13 @@
-//! The spin problem in the angles (θ, φ) of Lemma 4.1, as printed: not the way to integrate it, and here to show why.
+//! The spin problem in the angles (θ, φ) of Lemma 4.1, as printed ([`PrintedChart`]): not the way to integrate it, and here to show why.
 //!
-//! `4k² H = p_φ² A + p_θ² c² B − 2(k² − 1) p_φ p_θ c s`, `A = sin²θ + k² cos²θ`, `B = cos²θ + k² sin²θ`, `c = cot φ`, `s = sin θ cos θ`.
-//! Hamilton's equations and their variation, eight together, with six values of sines, cosines and quotients of them for each evaluation. At the poles
-//! c is infinite, though nothing happens there: an extremal that passes near one makes the steps short.
-//!
-//! H is homogeneous of degree 2 in p, so `p·δq` is constant, and zero for variations from one point that keep H: δq vanishes with
-//! `p_φ δθ − p_θ δφ`, a polynomial of the state, as events need it. It vanishes to third order at the start on the equator, where
-//! φ = π/2, θ = 0, p_φ = −2, δp = (1, 0) keeps H. Scales are what a library takes for its relative and absolute tolerances together: the
-//! larger of 1 and the component's size.
+//! Eight equations together, with six values of sines, cosines and quotients of them for each evaluation; an extremal that passes near a
+//! pole makes the steps short. `p_φ δθ − p_θ δφ` is a polynomial of the state, as events need it, and vanishes to third order at the
+//! start. Scales are what a library takes for its relative and absolute tolerances together: the larger of 1 and the component's size.
 //!
 //! Not known here: the lift, which this is compared with.
 
 use crate::effects::cost_of_accuracy::problem::Found;
+use crate::geometry::spin::printed_chart::PrintedChart;
 use crate::numerics::real::Real;
 use crate::numerics::runge_kutta::dop853::Dop853;
 use crate::numerics::runge_kutta::integrator::integrate;
@@ -21,61 +17,16 @@ use crate::numerics::taylor::flow::product_each;
 use crate::numerics::taylor::integrator::Settings;
 use crate::numerics::taylor::step::{Jet, absolute_sum};
 
-/// Hamilton's equations of Lemma 4.1 with one variation. State: `[θ, φ, p_θ, p_φ, δθ, δφ, δp_θ, δp_φ]`.
-#[derive(Clone, Copy, Debug)]
-pub struct PrintedChart<S> {
-    /// `2/(4k²)`.
-    twice_factor: S,
-    /// `k²`.
-    k_squared: S,
-}
+/// The printed equations with the scales of a library.
+struct Chart<S>(PrintedChart<S>);
 
-impl<S: Real> PrintedChart<S> {
-    /// For this k.
-    pub fn new(k: S) -> Self {
-        let k_squared = k * k;
-        Self { twice_factor: S::from_f64(0.5) / k_squared, k_squared }
-    }
-}
-
-impl<S: Real> RightHandSide<S> for PrintedChart<S> {
+impl<S: Real> RightHandSide<S> for Chart<S> {
     type State<T: Copy> = [T; 8];
     const BASE_DIMENSION: usize = 4;
     const COLUMNS: usize = 1;
 
     fn rate(&self, _: S, state: &[S; 8]) -> [S; 8] {
-        let [theta, phi, p, q, d_theta, d_phi, dp, dq] = *state;
-        let (factor, square) = (self.twice_factor, self.k_squared);
-        let two = S::from_f64(2.0);
-        let excess = square - S::ONE;
-        let ((sine, cosine), (sine_phi, cosine_phi)) = (theta.sin_cos(), phi.sin_cos());
-        let (ss, cc, sc) = (sine * sine, cosine * cosine, sine * cosine);
-        let (a, b, turned) = (ss + square * cc, cc + square * ss, cc - ss);
-        let cot = cosine_phi / sine_phi;
-        let growth = S::ONE + cot * cot;
-        // Variations of A, B, sin θ cos θ, cos²θ − sin²θ, cot φ and 1 + cot² φ.
-        let db = two * excess * sc * d_theta;
-        let (da, d_sc, d_turned) = (-db, turned * d_theta, -(two * two * sc * d_theta));
-        let d_cot = -(growth * d_phi);
-        let d_growth = two * cot * d_cot;
-        // p_θ c and its variation; the two sums that the momenta's rates are products with.
-        let (pc, d_pc) = (p * cot, dp * cot + p * d_cot);
-        let (qs, d_qs) = (q * sc, dq * sc + q * d_sc);
-        let first = pc * b - excess * qs;
-        let d_first = d_pc * b + pc * db - excess * d_qs;
-        let (squares, mixed) = (q * q - pc * pc, q * pc);
-        let (d_squares, d_mixed) = (two * (q * dq - pc * d_pc), dq * pc + q * d_pc);
-        let scaled = factor * excess;
-        [
-            factor * cot * first,
-            factor * (q * a - excess * pc * sc),
-            scaled * (sc * squares + mixed * turned),
-            factor * growth * p * first,
-            factor * (d_cot * first + cot * d_first),
-            factor * (dq * a + q * da - excess * (d_pc * sc + pc * d_sc)),
-            scaled * (d_sc * squares + sc * d_squares + d_mixed * turned + mixed * d_turned),
-            factor * ((d_growth * p + growth * dp) * first + growth * p * d_first),
-        ]
+        self.0.rate(state)
     }
 
     fn scales(&self, state: &[S; 8]) -> [S; 8] {
@@ -86,16 +37,16 @@ impl<S: Real> RightHandSide<S> for PrintedChart<S> {
 /// `p_φ δθ − p_θ δφ`.
 struct Across;
 
-impl<S: Real> EventFunction<S, Trace<PrintedChart<S>>> for Across {
+impl<S: Real> EventFunction<S, Trace<Chart<S>>> for Across {
     const DEGREE: usize = 2;
-    fn series(&self, jet: &Jet<S, Trace<PrintedChart<S>>>, last: usize, out: &mut EventSeries<S>) {
+    fn series(&self, jet: &Jet<S, Trace<Chart<S>>>, last: usize, out: &mut EventSeries<S>) {
         let [_, _, p, q, d_theta, d_phi, ..] = &jet.state;
         for (n, coefficient) in out.iter_mut().enumerate().take(last + 1) {
             let [first, second] = product_each([(q, d_theta), (p, d_phi)], jet.order(), n);
             *coefficient = first - second;
         }
     }
-    fn magnitude(&self, jet: &Jet<S, Trace<PrintedChart<S>>>, length: S) -> S {
+    fn magnitude(&self, jet: &Jet<S, Trace<Chart<S>>>, length: S) -> S {
         let [p, q, d_theta, d_phi] = [2, 3, 4, 5].map(|i| absolute_sum(&jet.state[i], jet.order(), length));
         q * d_theta + p * d_phi
     }
@@ -103,11 +54,9 @@ impl<S: Real> EventFunction<S, Trace<PrintedChart<S>>> for Across {
 
 /// The first conjugate time up to `until` of the start `p_θ` on the equator, by DOP853 in the chart; none where the integration fails.
 pub fn first_conjugate_time<S: Real>(k: S, p_theta: S, asked: f64, until: S) -> Found<S> {
-    let (zero, one, two) = (S::ZERO, S::ONE, S::from_f64(2.0));
-    let state = [zero, S::PI / two, p_theta, -two, zero, zero, one, zero];
     let mut events = Events::first(1, Across).vanishing_at_start(3);
-    let flow = ByRate::new(PrintedChart::new(k));
-    match integrate(Dop853, &flow, &state, (zero, until), &Settings::new(asked), &mut events) {
+    let (flow, start) = (ByRate::new(Chart(PrintedChart::new(k))), PrintedChart::start(p_theta));
+    match integrate(Dop853, &flow, &start, (S::ZERO, until), &Settings::new(asked), &mut events) {
         Ok(arrival) => Found { time: events.found.first().map(|root| root.time), work: arrival.work },
         Err(_) => Found::nothing(),
     }
@@ -117,35 +66,6 @@ pub fn first_conjugate_time<S: Real>(k: S, p_theta: S, asked: f64, until: S) -> 
 mod tests {
     use super::*;
     use crate::geometry::spin::lift::first_conjugate_time_by_integration;
-
-    /// Oracles: the rates as difference quotients of H as printed, and the variation's as those of the rates (relative 1e-6).
-    #[test]
-    fn the_equations_are_those_of_the_printed_hamiltonian() {
-        let k = 0.8;
-        let hamiltonian = |[theta, phi, p, q]: [f64; 4]| {
-            let ((s, c), cot) = (libm::sincos(theta), 1.0 / libm::tan(phi));
-            let (ss, cc, kk) = (s * s, c * c, k * k);
-            let both = q * q * (ss + kk * cc) + p * p * cot * cot * (cc + kk * ss);
-            (both - 2.0 * (kk - 1.0) * q * p * cot * s * c) / (4.0 * kk)
-        };
-        let (at, along) = ([0.4, 0.9, 0.7, -1.6], [0.3, -0.2, 1.0, 0.4]);
-        let rate = |at: [f64; 4], along: [f64; 4]| {
-            let state = [at[0], at[1], at[2], at[3], along[0], along[1], along[2], along[3]];
-            PrintedChart::new(k).rate(0.0, &state)
-        };
-        let step = 1e-5;
-        let moved = |i: usize, by: f64| std::array::from_fn(|j| if i == j { at[j] + by } else { at[j] });
-        let slope = |i: usize| (hamiltonian(moved(i, step)) - hamiltonian(moved(i, -step))) / (2.0 * step);
-        let rates = rate(at, along);
-        let expected = [slope(2), slope(3), -slope(0), -slope(1)];
-        let shifted = |by: f64| rate(std::array::from_fn(|j| at[j] + by * along[j]), [0.0; 4]);
-        let (after, before) = (shifted(step), shifted(-step));
-        for i in 0..4 {
-            assert!((rates[i] - expected[i]).abs() < 1e-8, "{i}: {} {}", rates[i], expected[i]);
-            let varied = (after[i] - before[i]) / (2.0 * step);
-            assert!((rates[4 + i] - varied).abs() < 1e-8, "{i}: {} {varied}", rates[4 + i]);
-        }
-    }
 
     /// Oracle: the lift, far from the poles (p_θ = 5), on both sides of k = 1: there the chart is as good as any.
     #[test]

@@ -10,7 +10,6 @@ use crate::effects::rotation_group::directions::spread_evenly;
 use crate::effects::rotation_group::start::Body;
 use crate::geometry::rotation_group::attitude_route::first_conjugate_times_by_attitude;
 use crate::geometry::rotation_group::conjugate::{ConjugateError, first_conjugate_times_by_method};
-use crate::geometry::rotation_group::metric::Metric;
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
 use crate::numerics::runge_kutta::method::Method;
@@ -58,13 +57,6 @@ const TIMED_CODE: &[&str] = &[
 
 const ROUTES: &[Route] = &[Route::Taylor, Route::TaylorDoubleDouble, Route::Dop853, Route::Verner98];
 
-impl RotationGroup {
-    fn metric<S: Real>(&self) -> Result<Metric<S>, NodeError> {
-        let Body { a, b, c } = self.body;
-        Metric::new(S::from_f64(a), S::from_f64(b), S::from_f64(c)).map_err(failed("metric"))
-    }
-}
-
 impl Problem for RotationGroup {
     /// The momentum in the body.
     type Start = [f64; 3];
@@ -94,7 +86,7 @@ impl Problem for RotationGroup {
         asked: f64,
         _: f64,
     ) -> Result<Found<S>, NodeError> {
-        match first_conjugate_times_by_method(method, &self.metric()?, start.map(S::from_f64), 1, asked) {
+        match first_conjugate_times_by_method(method, &self.body.metric()?, start.map(S::from_f64), 1, asked) {
             Ok(found) => Ok(Found { time: found.times.first().copied(), work: found.work }),
             Err(ConjugateError::Fewer { .. } | ConjugateError::Integration(_)) => Ok(Found::nothing()),
             Err(error) => Err(failed(&format!("{start:?}"))(error)),
@@ -103,7 +95,7 @@ impl Problem for RotationGroup {
 
     fn second_route(&self, start: &[f64; 3]) -> Result<DoubleDouble, NodeError> {
         let (momentum, asked) = (start.map(DoubleDouble::from_f64), DoubleDouble::EPSILON.to_f64());
-        let found = first_conjugate_times_by_attitude(&self.metric()?, momentum, 1, asked);
+        let found = first_conjugate_times_by_attitude(&self.body.metric()?, momentum, 1, asked);
         let found = found.map_err(failed(&format!("{start:?}")))?;
         found.times.first().copied().ok_or_else(|| no_such_route(Route::TaylorDoubleDouble, start))
     }

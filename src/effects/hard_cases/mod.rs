@@ -6,4 +6,6 @@ pub mod rotation_group_naive;
 pub mod serret_andoyer;
 pub mod serret_andoyer_naive;
 pub mod spin;
+mod spin_limit;
 mod spin_naive;
+mod told;

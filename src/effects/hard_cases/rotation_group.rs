@@ -4,10 +4,11 @@
 //! momentum in double-double. The condition number is the largest difference quotient over inputs moved by one ε, in double-double as
 //! well where the closed form resolves the start. What a straightforward program loses is in `rotation_group_naive.rs`.
 //!
-//! Where a family says nothing else the body is the article's, and the momentum `MOMENTUM`.
+//! Where a family says nothing else the body is the one given, and the momentum `MOMENTUM`.
 
-use super::family::{Case, Told, table};
+use super::family::{Case, Refused, Told, check_ends, distances, table};
 use super::rotation_group_naive::{cosines_in_the_chart, first_sign_change, printed_momentum};
+use super::told::{nothing, told};
 use crate::contract::accuracy::ARTICLE;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
@@ -26,8 +27,6 @@ use crate::numerics::real::Real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The article's inertia: what a family sends to no limit stays there.
-pub const INERTIA: Body = Body { a: 1.5, b: 2.0, c: 2.8 };
 /// A momentum near no limit, of any body.
 const MOMENTUM: [f64; 3] = [0.5, -0.3, 0.8];
 /// Φ2's companions at a pole: Φ3, p2, p3, and q, the momentum that the printed formula cancels.
@@ -70,21 +69,6 @@ pub enum Family {
 }
 
 impl Family {
-    /// All of them.
-    pub const ALL: [Self; 11] = [
-        Self::NearSphere,
-        Self::NearOblate,
-        Self::NearProlate,
-        Self::StableAxis,
-        Self::StableAxisFirst,
-        Self::MiddleAxis,
-        Self::SeparatingPolhode,
-        Self::EulerPole,
-        Self::EulerPoleLimit,
-        Self::LongTime,
-        Self::LargeAnisotropy,
-    ];
-
     /// The name in configs and tables.
     pub fn name(self) -> &'static str {
         match self {
@@ -121,14 +105,27 @@ impl Family {
         }
     }
 
+    /// The unit of what is asked.
+    fn unit(self) -> &'static str {
+        if self == Self::LongTime { "1" } else { "time" }
+    }
+
     /// The smallest distance that a sweep is made for: below it the inputs are those of the limit itself, or the work too much.
-    pub fn farthest(self) -> f64 {
+    fn farthest(self) -> f64 {
         match self {
             Self::LongTime => 1e-4,
             // Most of the way by integration in double-double; the closed form in double-double holds as far.
             Self::MiddleAxis | Self::SeparatingPolhode | Self::LargeAnisotropy => 1e-12,
             _ => 1e-15,
         }
+    }
+
+    /// Whether this family can be swept between two distances.
+    ///
+    /// # Errors
+    /// [`Refused`]: ends in the wrong order or beyond the family's.
+    pub fn validate(self, from: f64, to: f64) -> Result<(), Refused> {
+        check_ends(from, to, 1.0, self.farthest())
     }
 }
 
@@ -144,7 +141,7 @@ pub struct HardCasesRotationGroup {
     /// The last distance.
     pub to: f64,
     /// Distances a decade.
-    pub per_decade: usize,
+    pub per_decade: u32,
 }
 
 /// The kind.
@@ -155,6 +152,7 @@ pub const KIND: Kind = Kind {
         "effects/hard_cases/rotation_group.rs",
         "effects/hard_cases/rotation_group_naive.rs",
         "effects/hard_cases/family.rs",
+        "effects/hard_cases/told.rs",
         "effects/counted.rs",
         "effects/point",
         "effects/point.rs",
@@ -170,7 +168,7 @@ pub const KIND: Kind = Kind {
 
 /// How a momentum is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Given3 {
+enum Given3 {
     /// In the body.
     Body([f64; 3]),
     /// By Φ2, Φ3 and p1, p2, p3.
@@ -179,21 +177,20 @@ pub enum Given3 {
 
 /// A start with its body, and the time at which the cosine is asked, if that is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Posed {
+struct Posed {
     /// `A, B, C`.
-    pub inertia: [f64; 3],
-    /// The momentum.
-    pub momentum: Given3,
+    inertia: [f64; 3],
+    momentum: Given3,
     /// When; none: the first conjugate time is asked.
-    pub time: Option<f64>,
+    time: Option<f64>,
 }
 
 impl Posed {
     /// The start.
     ///
     /// # Errors
-    /// None that is one.
-    pub fn start(&self) -> Result<Start, NodeError> {
+    /// A body or a momentum that is none.
+    fn start(&self) -> Result<Start, NodeError> {
         let [a, b, c] = self.inertia;
         let metric = Metric::new(a, b, c).map_err(failed("hard cases"))?;
         match self.momentum {
@@ -223,7 +220,7 @@ impl Posed {
     }
 
     /// The keys of `point`.
-    pub fn given(&self) -> point::Inputs {
+    fn given(&self) -> point::Inputs {
         let number = |(key, x): (&str, f64)| (key.to_owned(), Given::Number(x));
         let [a, b, c, phi2, phi3, x, y, z, _] = self.inputs();
         let mut given = point::Inputs::from([("A", a), ("B", b), ("C", c)].map(number));
@@ -295,7 +292,6 @@ impl Posed {
 
     /// Our answer, its route and its work.
     fn ours(&self) -> Result<(Told, String, Work), NodeError> {
-        let nothing = |reason: String| (Told { value: f64::NAN, claimed: f64::NAN }, reason, Work::default());
         if let Some(time) = self.time {
             let found = steady_cosine(&self.start()?, time, Polhode::rounded);
             let work = Work { elliptic_calls: COSINE_CALLS, rows: 1, ..Work::default() };
@@ -304,13 +300,7 @@ impl Posed {
                 |(value, claimed)| (Told { value, claimed }, "closed form of the momentum".to_owned(), work),
             ));
         }
-        Ok(match point::answer(point::Metric::RotationGroup, &self.given(), ARTICLE) {
-            Ok(answer) => match (answer.numbers.first().copied().flatten(), answer.error) {
-                (Some(value), Some(claimed)) => (Told { value, claimed }, answer.route, answer.work),
-                _ => nothing(answer.reason.unwrap_or_default()),
-            },
-            Err(error) => nothing(error.to_string()),
-        })
+        Ok(told(point::answer(point::Metric::RotationGroup, &self.given(), ARTICLE), 0))
     }
 
     fn naive(&self) -> f64 {
@@ -341,25 +331,11 @@ impl Truth {
 }
 
 impl HardCasesRotationGroup {
-    /// The distances, falling, equally spaced in the logarithm, both ends exact.
-    fn distances(&self) -> Result<Vec<f64>, NodeError> {
-        let Self { from, to, per_decade, family, .. } = *self;
-        if !(from > to && from <= 1.0 && to >= family.farthest() && per_decade > 0) {
-            let found = format!("from = {from:?}, to = {to:?}, per_decade = {per_decade}");
-            let least = family.farthest();
-            let needed = format!("1 >= from > to >= {least:?} and per_decade >= 1 are needed");
-            return Err(NodeError::new(format!("{}: {needed}, found {found}", family.name())));
-        }
-        let steps = (libm::log10(from / to) * per_decade as f64 + 0.5).floor().max(1.0);
-        let inside = |i: f64| if i == steps { to } else { from * libm::pow(to / from, i / steps) };
-        Ok((0..=steps as usize).map(|i| inside(i as f64)).collect())
-    }
-
     /// The case at a distance.
     ///
     /// # Errors
     /// A body that has no separating polhode, where a period is needed.
-    pub fn posed(&self, distance: f64) -> Result<Posed, NodeError> {
+    fn posed(&self, distance: f64) -> Result<Posed, NodeError> {
         let (Body { a, b, c }, d) = (self.body, distance);
         let inertia = match self.family {
             Family::NearSphere => [a, a + a * d, a + 2.0 * a * d],
@@ -395,9 +371,10 @@ impl HardCasesRotationGroup {
     /// The cases.
     ///
     /// # Errors
-    /// A range that is none; a truth that could not be found.
+    /// A sweep that [`Family::validate`] refuses; a truth that could not be found.
     pub fn cases(&self) -> Result<Vec<Case>, NodeError> {
-        let distances = self.distances()?;
+        self.family.validate(self.from, self.to).map_err(failed(self.family.name()))?;
+        let distances = distances(self.from, self.to, self.per_decade);
         let posed = distances.iter().map(|distance| self.posed(*distance)).collect::<Result<Vec<_>, _>>()?;
         // One integration for all times.
         let long: Option<Vec<f64>> = posed.iter().map(|posed| posed.time).collect();
@@ -429,7 +406,8 @@ impl Compute for HardCasesRotationGroup {
 
     fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
         let cases = self.cases()?;
-        let table = table(self.family.name(), self.family.meaning(), &cases).map_err(failed("hard cases"))?;
+        let family = self.family;
+        let table = table(family.name(), family.unit(), family.meaning(), &cases).map_err(failed(family.name()))?;
         let mut work = Work::default();
         cases.iter().for_each(|case| work += case.work);
         product(&table, work)

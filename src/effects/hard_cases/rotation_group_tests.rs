@@ -2,28 +2,43 @@ use super::*;
 use crate::contract::accuracy::ARTICLE;
 use crate::effects::hard_cases::family::Verdict;
 
+/// The article's.
+const INERTIA: Body = Body { a: 1.5, b: 2.0, c: 2.8 };
+const ALL: [Family; 11] = [
+    Family::NearSphere,
+    Family::NearOblate,
+    Family::NearProlate,
+    Family::StableAxis,
+    Family::StableAxisFirst,
+    Family::MiddleAxis,
+    Family::SeparatingPolhode,
+    Family::EulerPole,
+    Family::EulerPoleLimit,
+    Family::LongTime,
+    Family::LargeAnisotropy,
+];
+
 fn cases(family: Family) -> Vec<Case> {
     let to = family.farthest();
     HardCasesRotationGroup { family, body: INERTIA, from: 0.1, to, per_decade: 2 }.cases().unwrap()
 }
 
-/// Every case of every family: stable, the claim honest and not more than 100 times too large in the median; and what the naive
-/// formulation loses at least (relative error at its worst), where it loses.
+/// What the naive formulation loses on its way to the limit: at least this much at some case. Of the families that are not here it loses
+/// nothing: momentum and Jacobi fields in the body know neither the axes, nor the separating polhode, nor what two equal moments change in
+/// a closed form, and their integration stays where its tolerance puts it.
+const LOST: [(Family, f64); 5] = [
+    (Family::NearSphere, 0.99),
+    (Family::EulerPole, 1e-10),
+    (Family::EulerPoleLimit, 1e-11),
+    (Family::LongTime, 1e-5),
+    (Family::LargeAnisotropy, 0.99),
+];
+
+/// Every case of every family: stable, the claim honest and not more than 100 times too large in the median; and where the naive
+/// formulation loses, it does.
 #[test]
 fn ours_is_stable_in_every_family() {
-    for (family, lost) in [
-        (Family::NearSphere, 1.0),
-        (Family::NearOblate, 1e-15),
-        (Family::NearProlate, 1e-15),
-        (Family::StableAxis, 1e-15),
-        (Family::StableAxisFirst, 1e-15),
-        (Family::MiddleAxis, 1e-15),
-        (Family::SeparatingPolhode, 1e-15),
-        (Family::EulerPole, 1e-10),
-        (Family::EulerPoleLimit, 1e-11),
-        (Family::LongTime, 1e-8),
-        (Family::LargeAnisotropy, 1.0),
-    ] {
+    for family in ALL {
         let cases = cases(family);
         let mut ratios = Vec::new();
         let mut naive = 0.0_f64;
@@ -35,7 +50,9 @@ fn ours_is_stable_in_every_family() {
         }
         ratios.sort_by(f64::total_cmp);
         assert!(ratios[ratios.len() / 2] <= 100.0, "{}: {ratios:?}", family.name());
-        assert!(naive >= lost, "{}: the naive formulation loses {naive:e}", family.name());
+        if let Some((_, least)) = LOST.iter().find(|(of, _)| *of == family) {
+            assert!(naive >= *least, "{}: the naive formulation loses {naive:e} only", family.name());
+        }
         assert!(cases.len() >= if family == Family::LongTime { 7 } else { 23 });
         assert!((cases[0].distance, cases[cases.len() - 1].distance) == (0.1, family.farthest()));
     }
@@ -53,19 +70,20 @@ fn signs_miss_the_pairs_near_the_sphere() {
 fn ranges_and_bodies_that_are_none_are_refused() {
     let good = HardCasesRotationGroup { family: Family::LongTime, body: INERTIA, from: 0.1, to: 1e-3, per_decade: 1 };
     assert_eq!(good.cases().unwrap().len(), 3);
-    for bad in [
-        HardCasesRotationGroup { to: 1e-5, ..good },
-        HardCasesRotationGroup { from: 1e-3, ..good },
-        HardCasesRotationGroup { from: f64::NAN, ..good },
-        HardCasesRotationGroup { per_decade: 0, ..good },
-        HardCasesRotationGroup { body: Body { a: 1.0, b: 1.0, c: 2.0 }, ..good },
-        HardCasesRotationGroup { body: Body { a: -1.0, ..INERTIA }, ..good },
+    for (bad, word) in [
+        (HardCasesRotationGroup { to: 1e-5, ..good }, "to: found 1e-5, accepted: at least 0.0001"),
+        (HardCasesRotationGroup { from: 1e-3, ..good }, "to: found 0.001, accepted: at least 0.0001, below 0.001"),
+        (HardCasesRotationGroup { from: f64::NAN, ..good }, "from: found NaN, accepted: above 0.0001, at most 1.0"),
+        (HardCasesRotationGroup { body: Body { a: 1.0, b: 1.0, c: 2.0 }, ..good }, "no period"),
+        (HardCasesRotationGroup { body: Body { a: -1.0, ..INERTIA }, ..good }, "positive"),
     ] {
         let refused = bad.cases().unwrap_err().to_string();
-        assert!(refused.len() > 20, "{refused}");
+        assert!(refused.contains(word), "{refused}");
     }
+    assert!(ALL.iter().all(|family| family.validate(1.0, family.farthest()).is_ok()));
+    assert!(ALL.iter().all(|family| family.unit() == if *family == Family::LongTime { "1" } else { "time" }));
     assert_eq!(serde_json::to_string(&Family::StableAxisFirst).unwrap(), "\"stable-axis-first\"");
-    assert!(Family::ALL.iter().all(|family| serde_json::to_string(family).unwrap() == format!("{:?}", family.name())));
+    assert!(ALL.iter().all(|family| serde_json::to_string(family).unwrap() == format!("{:?}", family.name())));
 }
 
 /// Oracle: `tests/oracle/hard_cases_rotation_group.json` (its `origin`), which no part of this crate computed.

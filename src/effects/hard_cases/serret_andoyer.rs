@@ -4,10 +4,11 @@
 //! condition number is the largest difference quotient over inputs moved by one ε, in double-double as well. What the program would lose
 //! that knows the printed formulas is in `serret_andoyer_naive.rs`.
 //!
-//! Where a family says nothing else, φ0 is at `START` of the way from the equator to the turning point, ascending, h = 1/2.
+//! Where a family says nothing else, the body is the one given, φ0 is at `START` of the way from the equator to the turning point, ascending, h = 1/2.
 
-use super::family::{Case, Told, table};
+use super::family::{Case, Refused, Told, check_ends, distances, table};
 use super::serret_andoyer_naive::{Chart, Printed, by_integration};
+use super::told::{nothing, told};
 use crate::contract::accuracy::ARTICLE;
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
@@ -22,8 +23,6 @@ use crate::numerics::real::Real;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// The article's inertia, `A, B, C`: what a family sends to no limit stays there.
-pub const INERTIA: Body = Body { a: 1.5, b: 2.0, c: 2.8 };
 /// Sine of the starting angle in units of that at the turning point.
 const START: f64 = -0.6;
 /// Starting place of the families that near the separatrix from a fixed place.
@@ -66,22 +65,6 @@ pub enum Family {
 }
 
 impl Family {
-    /// All of them.
-    pub const ALL: [Self; 12] = [
-        Self::Separatrix,
-        Self::SeparatrixMomenta,
-        Self::Cusp,
-        Self::Equator,
-        Self::StripEnd,
-        Self::StripEndWithSeparatrix,
-        Self::NearOblate,
-        Self::NearProlate,
-        Self::NearProlateMomenta,
-        Self::NearSphere,
-        Self::ThirdKind,
-        Self::LongTime,
-    ];
-
     /// The name in configs and tables.
     pub fn name(self) -> &'static str {
         match self {
@@ -97,16 +80,6 @@ impl Family {
             Self::NearSphere => "near-sphere",
             Self::ThirdKind => "third-kind",
             Self::LongTime => "long-time",
-        }
-    }
-
-    /// The distances between which it is of interest; the last is where inputs in f64 end, or a path of 1e9 periods.
-    pub fn range(self) -> (f64, f64) {
-        match self {
-            Self::Cusp => (0.05, 1e-16),
-            Self::Equator => (0.05, 1e-15),
-            Self::LongTime => (1.0, 1e-9),
-            _ => (0.1, 1e-15),
         }
     }
 
@@ -133,6 +106,44 @@ impl Family {
             Self::LongTime => "phi after many periods: distance is one over their number",
         }
     }
+
+    /// The unit of what is asked.
+    fn unit(self) -> &'static str {
+        match self {
+            Self::ThirdKind => "rad",
+            Self::LongTime => "length",
+            _ => "time",
+        }
+    }
+
+    /// The smallest distance that a sweep is made for.
+    fn farthest(self) -> f64 {
+        match self {
+            // δ is an input: it ends where m' leaves the numbers that can be squared and multiplied.
+            Self::Separatrix => 1e-200,
+            Self::Cusp => 1e-16,
+            // A path of 1e9 periods: φ then has some five digits left.
+            Self::LongTime => 1e-9,
+            // Below, rounding of the inputs puts the start, or the body, in the limit itself.
+            _ => 1e-15,
+        }
+    }
+
+    /// Whether this family can be swept between two distances with this body.
+    ///
+    /// # Errors
+    /// [`Refused`]: ends in the wrong order or beyond the family's; a first distance at which there is nothing to answer, such as a cusp
+    /// whose trajectory rotates.
+    pub fn validate(self, body: Body, from: f64, to: f64) -> Result<(), Refused> {
+        check_ends(from, to, 1.0, self.farthest())?;
+        let sweep = HardCasesSerretAndoyer { family: self, body, from, to, per_decade: 1 };
+        let none = match sweep.posed(from).map(|posed| posed.ours()) {
+            Ok((told, ..)) if !told.value.is_nan() => return Ok(()),
+            Ok((_, reason, _)) => reason,
+            Err(error) => error.to_string(),
+        };
+        Refused::unless(false, "from", from, format!("a distance with an answer for this body ({none})"))
+    }
 }
 
 /// The cases of one family.
@@ -147,7 +158,7 @@ pub struct HardCasesSerretAndoyer {
     /// The last distance.
     pub to: f64,
     /// Distances a decade.
-    pub per_decade: usize,
+    pub per_decade: u32,
 }
 
 /// The kind.
@@ -158,6 +169,7 @@ pub const KIND: Kind = Kind {
         "effects/hard_cases/serret_andoyer.rs",
         "effects/hard_cases/serret_andoyer_naive.rs",
         "effects/hard_cases/family.rs",
+        "effects/hard_cases/told.rs",
         "effects/counted.rs",
         "effects/point",
         "effects/point.rs",
@@ -172,18 +184,16 @@ pub const KIND: Kind = Kind {
 
 /// A start with its body, and what is asked of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Posed {
+struct Posed {
     /// `A, B, C`.
-    pub inertia: [f64; 3],
-    /// The start.
-    pub start: Start,
-    /// What is asked.
-    pub asked: Asked,
+    inertia: [f64; 3],
+    start: Start,
+    asked: Asked,
 }
 
 /// What is asked of a start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Asked {
+enum Asked {
     /// The first conjugate time.
     ConjugateTime,
     /// `x` at the first conjugate time.
@@ -194,7 +204,7 @@ pub enum Asked {
 
 impl Posed {
     /// The exact answer; NaN where there is none.
-    pub fn truth(&self) -> DoubleDouble {
+    fn truth(&self) -> DoubleDouble {
         let none = DoubleDouble::from_f64(f64::NAN);
         let found = || first_conjugate_point_to_reference(self.inertia, self.start);
         match self.asked {
@@ -234,7 +244,7 @@ impl Posed {
 
     /// The condition number: the largest `|∂ ln answer/∂ ln input|`, by differences over one ε to each side; at the edge of what is possible, to
     /// the side that is.
-    pub fn condition(&self, truth: DoubleDouble) -> f64 {
+    fn condition(&self, truth: DoubleDouble) -> f64 {
         let inputs = self.inputs();
         let mut most = 0.0_f64;
         for index in (0..inputs.len()).filter(|index| inputs[*index] != 0.0) {
@@ -251,7 +261,7 @@ impl Posed {
     }
 
     /// The keys of `point`.
-    pub fn given(&self) -> point::Inputs {
+    fn given(&self) -> point::Inputs {
         let [a, b, c, first, second, third, _] = self.inputs();
         let number = |key: &str, x: f64| (key.to_owned(), Given::Number(x));
         let mut given = point::Inputs::from([number("A", a), number("B", b), number("C", c)]);
@@ -269,7 +279,6 @@ impl Posed {
 
     /// Our answer, its route and its work.
     fn ours(&self) -> (Told, String, Work) {
-        let nothing = |reason: String| (Told { value: f64::NAN, claimed: f64::NAN }, reason, Work::default());
         if let Asked::Phi(t) = self.asked {
             let [a, b, c] = self.inertia;
             return match Metric::new(a, b, c).and_then(|metric| Extremal::new(&metric, self.start)) {
@@ -285,18 +294,12 @@ impl Posed {
             };
         }
         let index = if self.asked == Asked::ConjugateX { 1 } else { 0 };
-        match point::answer(point::Metric::SerretAndoyer, &self.given(), ARTICLE) {
-            Ok(answer) => match (answer.numbers.get(index).copied().flatten(), answer.error) {
-                (Some(value), Some(error)) => {
-                    // x' ≤ B p_x, and x ≥ A p_x t: an error of t1 is at most B/A times as large in x; and its own roundings.
-                    let [a, b, _] = self.inertia;
-                    let claimed = if index == 1 { b / a * error + 8.0 * f64::EPSILON } else { error };
-                    (Told { value, claimed }, answer.route, answer.work)
-                }
-                _ => nothing(answer.reason.unwrap_or_default()),
-            },
-            Err(error) => nothing(error.to_string()),
-        }
+        let answer = point::answer(point::Metric::SerretAndoyer, &self.given(), ARTICLE);
+        let (Told { value, claimed }, route, work) = told(answer, index);
+        // x' ≤ B p_x, and x ≥ A p_x t: an error of t1 is at most B/A times as large in x; and its own roundings.
+        let [a, b, _] = self.inertia;
+        let claimed = if index == 1 { b / a * claimed + 8.0 * f64::EPSILON } else { claimed };
+        (Told { value, claimed }, route, work)
     }
 
     fn naive(&self, family: Family, truth: f64) -> f64 {
@@ -317,23 +320,11 @@ impl Posed {
 const PATH_CALLS: u64 = 7;
 
 impl HardCasesSerretAndoyer {
-    /// The distances, falling, equally spaced in the logarithm, both ends exact.
-    fn distances(&self) -> Result<Vec<f64>, NodeError> {
-        let Self { from, to, per_decade, .. } = *self;
-        if !(from.is_finite() && to > 0.0 && from > to && from < 1.0 + f64::EPSILON && per_decade > 0) {
-            let found = format!("from = {from:?}, to = {to:?}, per_decade = {per_decade}");
-            return Err(NodeError::new(format!("1 >= from > to > 0 and per_decade >= 1 are needed, found {found}")));
-        }
-        let steps = (libm::log10(from / to) * per_decade as f64 + 0.5).floor().max(1.0);
-        let inside = |i: f64| if i == steps { to } else { from * libm::pow(to / from, i / steps) };
-        Ok((0..=steps as usize).map(|i| inside(i as f64)).collect())
-    }
-
     /// The case at a distance.
     ///
     /// # Errors
     /// A body that is none.
-    pub fn posed(&self, distance: f64) -> Result<Posed, NodeError> {
+    fn posed(&self, distance: f64) -> Result<Posed, NodeError> {
         let Body { a, b, c } = self.body;
         let asked = Asked::ConjugateTime;
         let [a, b, c] = match self.family {
@@ -420,8 +411,9 @@ impl HardCasesSerretAndoyer {
     /// All cases, the farthest first.
     ///
     /// # Errors
-    /// Distances that are none; a body that is none.
+    /// A sweep that [`Family::validate`] refuses; a body that is none.
     pub fn cases(&self) -> Result<Vec<Case>, NodeError> {
+        self.family.validate(self.body, self.from, self.to).map_err(failed(self.family.name()))?;
         let case = |distance: f64| -> Result<Case, NodeError> {
             let posed = self.posed(distance)?;
             let truth = posed.truth();
@@ -437,7 +429,7 @@ impl HardCasesSerretAndoyer {
                 work,
             })
         };
-        self.distances()?.into_iter().map(case).collect()
+        distances(self.from, self.to, self.per_decade).into_iter().map(case).collect()
     }
 }
 
@@ -448,7 +440,8 @@ impl Compute for HardCasesSerretAndoyer {
 
     fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
         let cases = self.cases()?;
-        let table = table(self.family.name(), self.family.meaning(), &cases).map_err(failed(self.family.name()))?;
+        let family = self.family;
+        let table = table(family.name(), family.unit(), family.meaning(), &cases).map_err(failed(family.name()))?;
         product(&table, cases.iter().map(|case| case.work).sum())
     }
 }

@@ -19,7 +19,8 @@
 //!
 //! Times are in the unit that `H = 1` fixes.
 
-use super::family::{Case, Told, table};
+use super::family::{Case, Refused, Told, check_ends, distances, table};
+use super::spin_limit::{crossings_begin, limit, pole_passages};
 use super::spin_naive::{by_chart, by_lift, by_printed_forms, points_by_lift};
 use crate::contract::node::{Compute, Inputs, Kind, NodeError, Product};
 use crate::contract::work::Work;
@@ -27,12 +28,9 @@ use crate::effects::product::{failed, product};
 use crate::geometry::spin::conjugate::{extremal, first_conjugate_point, position, position_error};
 use crate::geometry::spin::extremal::CALLS_FOR_CONSTANTS;
 use crate::geometry::spin::phase::CALLS_FOR_STATE;
-use crate::geometry::spin::reference::{
-    delta_beta_at_return, first_conjugate_point_in_double_double, position_in_double_double,
-};
+use crate::geometry::spin::reference::{first_conjugate_point_in_double_double, position_in_double_double};
 use crate::geometry::spin::solve::SpinError;
 use crate::geometry::spin::start::Start;
-use crate::geometry::spin::switch_points::{Passage, switch_points};
 use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
 use schemars::JsonSchema;
@@ -46,6 +44,7 @@ pub const KIND: Kind = Kind {
     code: &[
         "effects/hard_cases/family.rs",
         "effects/hard_cases/spin.rs",
+        "effects/hard_cases/spin_limit.rs",
         "effects/hard_cases/spin_naive.rs",
         "effects/product.rs",
         "geometry/spin",
@@ -61,14 +60,16 @@ const BEYOND: f64 = 1.2;
 const LONGEST_INTEGRATION: f64 = 2000.0;
 /// Half periods after which positions are not integrated.
 const MOST_HALF_PERIODS: f64 = 3000.0;
-/// The return to the equator that becomes conjugate first as `p_θ` grows.
-const FIRST_CONJUGATE_RETURN: u32 = 2;
-/// Where pole passages are looked for (Fig. 4).
-const POLE_RANGE: (f64, f64) = (1.0, 1.5);
-/// Secant steps from a root known to 1e-10: three are enough for double-double.
-const SECANT_STEPS: usize = 6;
-/// Halvings of a bracket in `f64`.
-const HALVINGS: usize = 60;
+/// The anisotropies of a family that keeps one: below, momenta near the meridian have no number ([`Start::new`]); above, a scan for a sign
+/// change in steps of the first conjugate time takes seconds.
+const K: (f64, f64) = (0.02, 1000.0);
+/// The largest k whose equator crossing is looked for: far above it the crossing comes nearer to the separatrix than the bracket does.
+const LARGEST_K_OF_CROSSING: f64 = 5.0;
+/// The momenta of a family that keeps one. Below, a long time passes so near to a pole that no digit of its angle is left; above, their
+/// powers leave double-double where k is large too.
+const MOMENTUM: (f64, f64) = (1e-8, 1e8);
+/// The largest momentum that pole passages are looked for with: far above it the first one lies beyond the k that are scanned.
+const LARGEST_MOMENTUM_OF_POLE: f64 = 1.0;
 
 /// The side from which a limit is approached.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -161,9 +162,9 @@ pub enum Family {
 pub struct HardCasesSpin {
     /// The family.
     pub family: Family,
-    /// The largest distance.
+    /// The first distance, the largest.
     pub from: f64,
-    /// The smallest distance.
+    /// The last distance, the smallest.
     pub to: f64,
     /// Cases per decade.
     pub per_decade: u32,
@@ -182,6 +183,71 @@ impl Family {
             Self::LargeK { .. } => "large-k",
             Self::SmallK { .. } => "small-k",
             Self::LongTime { .. } => "long-time",
+        }
+    }
+
+    /// The unit of what is asked.
+    fn unit(&self) -> &'static str {
+        match self {
+            Self::Pole { answered: Answered::Theta, .. } | Self::LongTime { .. } => "rad",
+            _ => "time",
+        }
+    }
+
+    /// The largest and the smallest distance that a sweep is made for.
+    fn ends(&self) -> (f64, f64) {
+        match self {
+            // p_θ is an input: as small as the meridian's neighbours are told apart from it.
+            Self::SmallMomentum { .. } => (1.0, 1e-300),
+            // Powers of p_θ leave double-double beyond.
+            Self::LargeMomentum { .. } => (1.0, 1e-100),
+            // Below, the nearest number to the limit is nearer to it than what is asked for.
+            Self::Separatrix { .. } | Self::EquatorCrossing { .. } | Self::Pole { .. } => (1.0, f64::EPSILON),
+            // k below 1 must stay away from 0.
+            Self::Round { .. } => (0.9, f64::EPSILON),
+            Self::LargeK { .. } => (1.0, 1e-12),
+            Self::SmallK { .. } => (1.0, 1e-30),
+            Self::LongTime { .. } => (1.0, 1e-10),
+        }
+    }
+
+    /// Whether this family, with its parameters, can be swept between two distances.
+    ///
+    /// # Errors
+    /// [`Refused`]: ends in the wrong order or beyond the family's; a parameter outside the range that its limit is looked for in, a
+    /// passage of a pole that does not happen, a long time whose β has no period.
+    pub fn validate(&self, from: f64, to: f64) -> Result<(), Refused> {
+        let (nearest, farthest) = self.ends();
+        check_ends(from, to, nearest, farthest)?;
+        let key = |parameter: &str| format!("family.{}.{parameter}", self.name());
+        let check = |parameter: &str, found: f64, (least, most): (f64, f64)| {
+            let holds = (least..=most).contains(&found);
+            Refused::unless(holds, key(parameter), found, format!("{least:?} to {most:?}"))
+        };
+        let above = |k: f64, (least, most): (f64, f64)| {
+            Refused::unless(k > least && k <= most, key("k"), k, format!("above {least:?}, at most {most:?}"))
+        };
+        match *self {
+            Self::SmallMomentum { k } | Self::LargeMomentum { k } => check("k", k, K),
+            Self::Separatrix { k, .. } => above(k, (1.0, K.1)),
+            Self::EquatorCrossing { k, .. } => above(k, (crossings_begin(), LARGEST_K_OF_CROSSING)),
+            Self::Round { p_theta, .. } | Self::LargeK { p_theta } | Self::SmallK { p_theta } => {
+                check("p_theta", p_theta, MOMENTUM)
+            }
+            Self::Pole { p_theta, passage, .. } => {
+                check("p_theta", p_theta, (MOMENTUM.0, LARGEST_MOMENTUM_OF_POLE))?;
+                let found = pole_passages(p_theta).map_or(0, |found| found.len());
+                let accepted = format!("1 to {found}, the number of a pole passage");
+                let holds = passage >= 1 && passage as usize <= found;
+                Refused::unless(holds, key("passage"), f64::from(passage), accepted)
+            }
+            Self::LongTime { k, p_theta } => {
+                check("k", k, K)?;
+                Refused::unless(k != 1.0, key("k"), k, "not 1, where β has no period")?;
+                check("p_theta", p_theta, MOMENTUM)?;
+                let has_period = Start::new(k, p_theta).is_ok_and(|start| extremal(&start).elliptic.is_some());
+                Refused::unless(has_period, key("p_theta"), p_theta, "not on the separatrix, where β has no period")
+            }
         }
     }
 
@@ -231,8 +297,9 @@ impl Compute for HardCasesSpin {
     }
 
     fn run(&self, _: &Inputs) -> Result<Product, NodeError> {
-        let cases = self.cases().map_err(failed(self.family.name()))?;
-        let table = table(KIND.name, &self.family.meaning(), &cases).map_err(failed(self.family.name()))?;
+        let family = &self.family;
+        let cases = self.cases()?;
+        let table = table(family.name(), family.unit(), &family.meaning(), &cases).map_err(failed(family.name()))?;
         let work = cases.iter().fold(Work::default(), |sum, case| sum + case.work);
         product(&table, work)
     }
@@ -242,21 +309,19 @@ impl HardCasesSpin {
     /// The cases, from the largest distance to the smallest.
     ///
     /// # Errors
-    /// A start that is refused; a truth that double-double can't tell.
-    pub fn cases(&self) -> Result<Vec<Case>, SpinError> {
-        let distances = self.distances();
+    /// A sweep that [`Family::validate`] refuses; a truth that double-double can't tell.
+    pub fn cases(&self) -> Result<Vec<Case>, NodeError> {
+        self.family.validate(self.from, self.to).map_err(failed(self.family.name()))?;
+        self.answered().map_err(failed(self.family.name()))
+    }
+
+    fn answered(&self) -> Result<Vec<Case>, SpinError> {
+        let distances = distances(self.from, self.to, self.per_decade);
         if let Family::LongTime { k, p_theta } = self.family {
             return long_times(k, p_theta, &distances);
         }
         let limit = limit(&self.family)?;
         distances.into_iter().map(|distance| self.case(limit, distance)).collect()
-    }
-
-    fn distances(&self) -> Vec<f64> {
-        let decades = libm::log10(self.from / self.to);
-        let count = libm::round(decades * f64::from(self.per_decade)).max(1.0) as u32;
-        let at = |i: u32| self.from * libm::pow(10.0, -decades * f64::from(i) / f64::from(count));
-        (0..=count).map(at).collect()
     }
 
     fn case(&self, limit: DoubleDouble, wanted: f64) -> Result<Case, SpinError> {
@@ -287,7 +352,7 @@ impl HardCasesSpin {
         };
         let (truth, condition) = with_condition(&[k, p], answer)?;
         let start = Start::new(k, p)?;
-        let (ours, route, work) = match first_conjugate_point(&start) {
+        let (ours, naive, route, work) = match first_conjugate_point(&start) {
             Ok(point) => {
                 let calls = u64::from(point.elliptic_calls);
                 let work = Work { elliptic_calls: calls, roots_solved: 1, rows: 1, ..Work::default() };
@@ -298,19 +363,19 @@ impl HardCasesSpin {
                     true => Told { value: angle, claimed: turned },
                     false => Told { value: point.t1, claimed: point.error },
                 };
-                (told, point.route(), work)
+                (told, self.naive(k, p, point.t1, of_theta), point.route(), work)
             }
-            Err(reason) => (Told { value: f64::NAN, claimed: f64::NAN }, reason.to_string(), Work::default()),
+            Err(reason) => (Told { value: f64::NAN, claimed: f64::NAN }, f64::NAN, reason.to_string(), Work::default()),
         };
-        let naive = self.naive(k, p, &start, of_theta);
         Ok(case(distance, truth, naive, ours, condition, route, work))
     }
 
-    fn naive(&self, k: f64, p: f64, start: &Start, of_theta: bool) -> f64 {
-        let t_max = match first_conjugate_point(start) {
-            Ok(point) if point.t1 <= LONGEST_INTEGRATION => BEYOND * point.t1,
-            _ => return f64::NAN,
-        };
+    /// The naive formulation's answer; NaN too where its integration up to a little more than `t1` would take too long.
+    fn naive(&self, k: f64, p: f64, t1: f64, of_theta: bool) -> f64 {
+        if t1 > LONGEST_INTEGRATION {
+            return f64::NAN;
+        }
+        let t_max = BEYOND * t1;
         match self.family {
             Family::LargeMomentum { .. } | Family::Separatrix { .. } => by_printed_forms(k, p, t_max),
             Family::Pole { .. } if of_theta => by_chart(k, p, t_max).theta + PI,
@@ -346,64 +411,6 @@ fn with_condition(
         }
     }
     Ok((center, largest))
-}
-
-/// The value of the swept parameter in the limit, where it is not 0 or infinite.
-fn limit(family: &Family) -> Result<DoubleDouble, SpinError> {
-    match *family {
-        Family::Separatrix { k, .. } => {
-            let k = DoubleDouble::from(k);
-            Ok(DoubleDouble::from(2.0) * ((k - DoubleDouble::ONE) * (k + DoubleDouble::ONE)).sqrt())
-        }
-        Family::EquatorCrossing { k, .. } => {
-            let at = |p: DoubleDouble| delta_beta_at_return(k.into(), p, FIRST_CONJUGATE_RETURN);
-            let q = 2.0 * ((k - 1.0) * (k + 1.0)).sqrt();
-            // δβ at the second return is negative for small p_θ above k̄, and positive next to the separatrix.
-            let (mut low, mut high) = (1e-6 * q, 0.999 * q);
-            for _ in 0..HALVINGS {
-                let middle = 0.5 * (low + high);
-                if at(middle.into())? < DoubleDouble::ZERO { low = middle } else { high = middle }
-            }
-            secant(low.into(), at)
-        }
-        Family::Pole { p_theta, passage, .. } => {
-            let found = switch_points(Passage::Pole, p_theta, POLE_RANGE.0, POLE_RANGE.1)?;
-            let missing = SpinError::OutOfDomain {
-                what: "passage",
-                found: f64::from(passage),
-                accepted: "the number of a pole passage between k = 1 and 1.5, from 1",
-            };
-            let switch = found.get(passage.saturating_sub(1) as usize).ok_or(missing)?;
-            // r1 vanishes where θ = π/2.
-            let half = DoubleDouble::PI / DoubleDouble::from(2.0);
-            let tangent = |k: DoubleDouble| {
-                let theta = first_conjugate_point_in_double_double(k, p_theta.into())?.theta;
-                let (sine, cosine) = (half - theta).sin_cos();
-                Ok(sine / cosine)
-            };
-            secant(switch.k.into(), tangent)
-        }
-        _ => Ok(DoubleDouble::ONE),
-    }
-}
-
-/// The root of a function near a point that is within rounding in `f64` of it.
-fn secant(
-    near: DoubleDouble,
-    function: impl Fn(DoubleDouble) -> Result<DoubleDouble, SpinError>,
-) -> Result<DoubleDouble, SpinError> {
-    let (mut last, mut x) = (near * DoubleDouble::from(1.0 - 4.0 * f64::EPSILON), near);
-    let (mut value_there, mut value) = (function(last)?, function(x)?);
-    for _ in 0..SECANT_STEPS {
-        if value == value_there || value == DoubleDouble::ZERO {
-            break;
-        }
-        let next = x - value * ((x - last) / (value - value_there));
-        (last, value_there) = (x, value);
-        x = next;
-        value = function(x)?;
-    }
-    Ok(x)
 }
 
 /// θ after `1/distance` half periods of β, whole ones.

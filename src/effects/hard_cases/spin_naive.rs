@@ -4,6 +4,7 @@
 //! Each returns NaN where nothing comes out. What they do not know: limits, cancellation, and how large their own error is.
 
 use crate::geometry::spin::lift::{first_conjugate_time_by_integration, trajectory};
+use crate::geometry::spin::printed_chart::PrintedChart;
 use crate::numerics::counts::Work;
 use crate::numerics::elliptic::incomplete::incomplete_pi;
 use crate::numerics::elliptic::jacobi::{Jacobi, jacobi_epsilon};
@@ -11,7 +12,7 @@ use crate::numerics::runge_kutta::dop853::Dop853;
 use crate::numerics::runge_kutta::integrator::integrate;
 use crate::numerics::runge_kutta::rate::{ByRate, RightHandSide, Trace};
 use crate::numerics::taylor::integrator::{Observer, Settings, Step};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 /// The relative error that the integrations ask of a step: what one asks of a good integrator in `f64`.
@@ -25,43 +26,14 @@ const AT_START: f64 = 1e-3;
 /// Steps in which the closed form's sign is looked at, per half turn of a great circle.
 const SAMPLES: f64 = 24.0;
 
-/// The Hamiltonian equations of Lemma 4.1 in `(θ, φ, p_θ, p_φ)`, and their variation by `p_θ(0)`.
-#[derive(Clone, Copy, Debug)]
-struct Chart {
-    k: f64,
-}
+/// The printed equations of Lemma 4.1 with their variation by `p_θ(0)`.
+struct Chart(PrintedChart<f64>);
 
 impl RightHandSide<f64> for Chart {
     type State<T: Copy> = [T; 8];
 
     fn rate(&self, _: f64, state: &[f64; 8]) -> [f64; 8] {
-        let [theta, phi, pt, pp, dtheta, dphi, dpt, dpp] = *state;
-        let k2 = self.k * self.k;
-        let (s, c) = libm::sincos(theta);
-        let (sin_phi, cos_phi) = libm::sincos(phi);
-        let q = cos_phi / sin_phi;
-        let slope = -1.0 - q * q;
-        let (a, b, e, f) = (s * s + k2 * c * c, c * c + k2 * s * s, (k2 - 1.0) * s * c, (k2 - 1.0) * (c * c - s * s));
-        // Variations of these.
-        let (da, db, de, df) = (-2.0 * e * dtheta, 2.0 * e * dtheta, f * dtheta, -4.0 * e * dtheta);
-        let dq = slope * dphi;
-        let dslope = -2.0 * q * dq;
-        let w = 0.5 / k2;
-        let moment = q * pt * pt * b - e * pp * pt;
-        let dmoment =
-            dq * pt * pt * b + 2.0 * q * pt * dpt * b + q * pt * pt * db - de * pp * pt - e * dpp * pt - e * pp * dpt;
-        [
-            w * (pt * q * q * b - e * pp * q),
-            w * (pp * a - e * pt * q),
-            -w * (e * pt * pt * q * q - e * pp * pp - f * pp * pt * q),
-            -w * slope * moment,
-            w * (dpt * q * q * b + 2.0 * pt * q * dq * b + pt * q * q * db - de * pp * q - e * dpp * q - e * pp * dq),
-            w * (dpp * a + pp * da - de * pt * q - e * dpt * q - e * pt * dq),
-            -w * (de * (pt * pt * q * q - pp * pp) + 2.0 * e * (pt * dpt * q * q + pt * pt * q * dq - pp * dpp)
-                - df * pp * pt * q
-                - f * (dpp * pt * q + pp * dpt * q + pp * pt * dq)),
-            -w * (dslope * moment + slope * dmoment),
-        ]
+        self.0.rate(state)
     }
 
     fn scales(&self, state: &[f64; 8]) -> [f64; 8] {
@@ -111,11 +83,17 @@ impl Observer<f64, Trace<Chart>> for FirstSignChange {
 
 /// The first conjugate time by integration of Lemma 4.1's Hamiltonian in its chart, up to `t_max`.
 pub(super) fn by_chart(k: f64, p_theta: f64, t_max: f64) -> ChartPoint {
-    let start = [0.0, FRAC_PI_2, p_theta, -2.0, 0.0, 0.0, 1.0, 0.0];
     let settings = Settings { maximum_steps: MOST_STEPS, ..Settings::new(TOLERANCE) };
     let mut first = FirstSignChange { found: ChartPoint { time: f64::NAN, theta: f64::NAN } };
     // An integration that fails has found nothing.
-    let _ = integrate(Dop853, &ByRate::new(Chart { k }), &start, (0.0, t_max), &settings, &mut first);
+    let _ = integrate(
+        Dop853,
+        &ByRate::new(Chart(PrintedChart::new(k))),
+        &PrintedChart::start(p_theta),
+        (0.0, t_max),
+        &settings,
+        &mut first,
+    );
     first.found
 }
 

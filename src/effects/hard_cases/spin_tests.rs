@@ -175,6 +175,71 @@ fn the_reference_values_of_the_project() {
     assert_eq!(seen, 5);
 }
 
+/// Each parameter is refused by its key; and what is accepted, at its ends, is answered.
+#[test]
+fn sweeps_that_are_none_are_refused_by_key() {
+    let (side, answered) = (Side::Below, Answered::Theta);
+    // 2√(k² − 1), exactly.
+    let separatrix = 1.5;
+    for (family, from, to, key) in [
+        (Family::SmallMomentum { k: 0.0 }, 1.0, 0.1, "family.small-momentum.k"),
+        (Family::LargeMomentum { k: f64::NAN }, 1.0, 0.1, "family.large-momentum.k"),
+        (Family::LargeMomentum { k: 1.2 }, 1.0, 1e-200, "to"),
+        (Family::Separatrix { k: 1.0, side }, 0.1, 1e-3, "family.separatrix.k"),
+        (Family::Separatrix { k: 1.2, side }, 0.1, 1e-17, "to"),
+        (Family::EquatorCrossing { k: 1.15, side }, 0.1, 1e-3, "family.equator-crossing.k"),
+        (Family::EquatorCrossing { k: 20.0, side }, 0.1, 1e-3, "family.equator-crossing.k"),
+        (Family::Pole { p_theta: -0.5, passage: 1, side, answered }, 0.1, 1e-3, "family.pole.p_theta"),
+        (Family::Pole { p_theta: 1e-4, passage: 0, side, answered }, 0.1, 1e-3, "family.pole.passage"),
+        (Family::Pole { p_theta: 1e-4, passage: 4, side, answered }, 0.1, 1e-3, "family.pole.passage"),
+        (Family::Round { p_theta: 0.0, side }, 0.1, 1e-3, "family.round.p_theta"),
+        (Family::Round { p_theta: 0.5, side }, 1.0, 1e-3, "from"),
+        (Family::LargeK { p_theta: -1.0 }, 0.1, 1e-3, "family.large-k.p_theta"),
+        (Family::SmallK { p_theta: 1e100 }, 0.1, 1e-3, "family.small-k.p_theta"),
+        (Family::LongTime { k: 1.0, p_theta: 1.0 }, 0.1, 1e-3, "family.long-time.k"),
+        (Family::LongTime { k: 1.25, p_theta: separatrix }, 0.1, 1e-3, "family.long-time.p_theta"),
+    ] {
+        let refused = family.validate(from, to).unwrap_err();
+        assert_eq!(refused.key, key, "{family:?}: {refused}");
+        assert!(HardCasesSpin { family, from, to, per_decade: 1 }.cases().unwrap_err().to_string().contains(key));
+    }
+    for family in [
+        Family::SmallMomentum { k: K.0 },
+        Family::SmallMomentum { k: K.1 },
+        Family::LargeMomentum { k: K.0 },
+        Family::LargeMomentum { k: 100.0 },
+        Family::Separatrix { k: 1.0 + f64::EPSILON, side },
+        Family::Separatrix { k: K.1, side: Side::Above },
+        Family::EquatorCrossing { k: 1.1548, side },
+        Family::EquatorCrossing { k: LARGEST_K_OF_CROSSING, side },
+        Family::Pole { p_theta: MOMENTUM.0, passage: 3, side, answered },
+        Family::Pole { p_theta: LARGEST_MOMENTUM_OF_POLE, passage: 2, side, answered },
+        Family::Round { p_theta: MOMENTUM.0, side },
+        Family::Round { p_theta: MOMENTUM.1, side },
+        Family::LargeK { p_theta: MOMENTUM.0 },
+        Family::LargeK { p_theta: MOMENTUM.1 },
+        Family::SmallK { p_theta: MOMENTUM.0 },
+        Family::SmallK { p_theta: MOMENTUM.1 },
+        Family::LongTime { k: K.0, p_theta: MOMENTUM.0 },
+        Family::LongTime { k: K.1, p_theta: MOMENTUM.1 },
+    ] {
+        let (nearest, farthest) = family.ends();
+        for (from, to) in [(nearest, nearest / 2.0), (farthest * 8.0, farthest)] {
+            let cases = HardCasesSpin { family, from, to, per_decade: 1 }.cases().unwrap();
+            assert!(cases.iter().all(|case| case.verdict() == Verdict::Stable && case.distance > 0.0), "{cases:?}");
+        }
+    }
+}
+
+#[test]
+fn units_are_those_of_the_question() {
+    let side = Side::Below;
+    let pole = |answered| Family::Pole { p_theta: 1e-4, passage: 1, side, answered };
+    assert_eq!((pole(Answered::Theta).unit(), pole(Answered::Time).unit()), ("rad", "time"));
+    assert_eq!(Family::LongTime { k: 0.8, p_theta: 0.5 }.unit(), "rad");
+    assert_eq!(Family::SmallK { p_theta: 0.5 }.unit(), "time");
+}
+
 /// The table has a row for each case, and the kind declares the code it reaches.
 #[test]
 fn the_node_makes_the_table() {

@@ -39,12 +39,12 @@ pub(super) fn read(reader: &Reader<'_>) -> Result<(Metric, Start), PointError> {
 fn told(((metric, start), point): ((Metric, Start), Result<ConjugatePoint, NoPoint>)) -> Result<Answer, PointError> {
     if !in_doubt(&metric, start, &point) {
         let calls = point.as_ref().map_or(0, |point| point.elliptic_calls);
-        return written(point, CLOSED_FORM, "", calls);
+        return written(point, "", calls);
     }
     let before = point.map_or(0, |point| point.elliptic_calls);
     let long = first_conjugate_point_to_reference([metric.a(), metric.b(), metric.c()], start);
     let calls = before + long.as_ref().map_or(0, |point| point.elliptic_calls);
-    written(long.map(rounded), CLOSED_FORM, LONG, calls)
+    written(long.map(rounded), LONG, calls)
 }
 
 /// The answer in double-double, rounded.
@@ -52,7 +52,7 @@ pub(super) fn to_reference(reader: &Reader<'_>) -> Result<Answer, PointError> {
     let (metric, start) = read(reader)?;
     let long = first_conjugate_point_to_reference([metric.a(), metric.b(), metric.c()], start);
     let calls = long.as_ref().map_or(0, |point| point.elliptic_calls);
-    written(long.map(rounded), CLOSED_FORM, ", in double-double arithmetic, rounded", calls)
+    written(long.map(rounded), ", in double-double arithmetic, rounded", calls)
 }
 
 /// Rounds to `f64`, which may be half an ε of the error.
@@ -73,7 +73,6 @@ fn rounded(point: ConjugatePoint<DoubleDouble>) -> ConjugatePoint {
 
 fn written(
     point: Result<ConjugatePoint, NoPoint>,
-    route: &str,
     precision: &str,
     elliptic_calls: usize,
 ) -> Result<Answer, PointError> {
@@ -83,7 +82,7 @@ fn written(
             numbers: [point.t1, point.x, point.y, point.theta, point.phi, point.lower_bound].map(Some).to_vec(),
             reason: None,
             error: Some(point.error),
-            route: format!("{route}{precision}"),
+            route: format!("{CLOSED_FORM}{precision}"),
             work: Work { elliptic_calls, roots_solved: 1, rows: 1, ..Work::default() },
         }),
         Err(NoPoint::Start(error)) => Err(PointError::Refused(error.to_string())),

@@ -115,13 +115,13 @@ pub enum FirstTwoError {
 
 /// The first two conjugate times, with multiplicity.
 ///
-/// `t1 ≤ t2`. Domain: any start. Guarantee: `error` bounds the relative error of both; it is below [`ENOUGH`] wherever the closed form
-/// applies. Special cases: equal values among A, B, C, and momenta along an axis, have the exact limit.
+/// `t1 ≤ t2`. Domain: any start. Guarantee: `error` bounds the relative error of both; wherever the closed form applies it is at most
+/// [`ENOUGH`], and half an ε more for the rounding to `f64`. Special cases: equal values among A, B, C, and momenta along an axis, have the exact limit.
 ///
 /// # Errors
 /// [`FirstTwoError`].
 pub fn first_two_conjugate_times(start: &Start) -> Result<FirstTwo, FirstTwoError> {
-    find(start, ENOUGH)
+    find(start, Asked::Within(ENOUGH))
 }
 
 /// The same to a relative error, [`ENOUGH`] at least: what asks for less gets no double-double where `f64` reaches it.
@@ -129,7 +129,7 @@ pub fn first_two_conjugate_times(start: &Start) -> Result<FirstTwo, FirstTwoErro
 /// # Errors
 /// [`FirstTwoError`].
 pub fn first_two_conjugate_times_within(start: &Start, relative_error: f64) -> Result<FirstTwo, FirstTwoError> {
-    find(start, relative_error.max(ENOUGH))
+    find(start, Asked::Within(relative_error.max(ENOUGH)))
 }
 
 /// The same in double-double throughout, rounded at the end: `times + rests`. What answers are measured against.
@@ -137,7 +137,7 @@ pub fn first_two_conjugate_times_within(start: &Start, relative_error: f64) -> R
 /// # Errors
 /// [`FirstTwoError`].
 pub fn first_two_conjugate_times_to_reference(start: &Start) -> Result<FirstTwo, FirstTwoError> {
-    find(start, 0.0)
+    find(start, Asked::Reference)
 }
 
 /// By how much the times of another start differ from those found, relative and to first order: what condition numbers are made of.
@@ -182,13 +182,25 @@ fn size(start: &Start) -> DoubleDouble {
     Real::sqrt(start.momentum.iter().fold(DoubleDouble::default(), |sum, m| sum + *m * *m))
 }
 
-fn find(start: &Start, enough: f64) -> Result<FirstTwo, FirstTwoError> {
+/// How good an answer is asked for.
+#[derive(Clone, Copy)]
+enum Asked {
+    /// Within a relative error; one in `f64` will do.
+    Within(f64),
+    /// In double-double throughout, with the rest that rounding leaves out.
+    Reference,
+}
+
+fn find(start: &Start, asked: Asked) -> Result<FirstTwo, FirstTwoError> {
     let [first, second] = spread(start);
     if second / first > LARGEST_RATIO {
         return Err(FirstTwoError::TooFarApart { ratio: second / first });
     }
-    // A reference keeps its rest.
-    let rounded = if enough > 0.0 { ROUNDED } else { 0.0 };
+    let (in_f64, rounded) = match asked {
+        Asked::Within(enough) => (Some(enough), ROUNDED),
+        // It keeps its rest.
+        Asked::Reference => (None, 0.0),
+    };
     let mut calls = 0;
     let mut best: Option<FirstTwo> = None;
     if let Ok(polhode) = Polhode::of(start) {
@@ -196,7 +208,7 @@ fn find(start: &Start, enough: f64) -> Result<FirstTwo, FirstTwoError> {
         let found = short.roots(None);
         calls += short.calls();
         let error = largest_error(&found);
-        if error <= enough.min(BELIEVED[0]) {
+        if in_f64.is_some_and(|enough| error <= enough.min(BELIEVED[0])) {
             let times = found.map(|root| (root.time, 0.0));
             return told(start, times, error + rounded, Route::ClosedForm, calls, Work::default());
         }
@@ -214,7 +226,7 @@ fn find(start: &Start, enough: f64) -> Result<FirstTwo, FirstTwoError> {
     }
     let mut work = Work::default();
     let exact = start.momentum.iter().all(|m| m.low() == 0.0);
-    if enough > 0.0 && exact {
+    if let Some(enough) = in_f64.filter(|_| exact) {
         let metric = metric(start.inverse_inertia.map(Real::to_f64))?;
         let settings = Settings { maximum_steps: MOST_STEPS[0], ..Settings::new(f64::EPSILON) };
         if let Ok(found) =

@@ -58,9 +58,7 @@ impl Start {
         let (momentum, second) = normalised(body_momentum);
         Ok(Start { inverse_inertia, momentum, exponent: first + second })
     }
-}
 
-impl Start {
     /// The start with Euler angles and their momenta.
     ///
     /// # Errors

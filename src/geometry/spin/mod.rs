@@ -18,6 +18,7 @@
 //! | `reference` | the same answers in double-double, rounded at the end |
 //! | `lanes` | first conjugate points of many starts, eight at a time |
 //! | `lift` | the lift of the flow to R³ × so(3)*: the second route, by integration |
+//! | `printed_chart` | the equations of Lemma 4.1 in (θ, φ) as printed: to be compared with |
 //! | `limits` | the limits p_θ → 0 and p_θ → ∞ and the round case k = 1 |
 //! | `switch_points` | the values of k at which the conjugate point crosses a pole or the equator (Fig. 4) |
 //! | `theta` | where θ turns along an extremal, its continuous branch, its total decrease, the first exit from [0, π] |
@@ -36,6 +37,7 @@ pub mod pendulum;
 pub mod phase;
 pub mod place;
 mod posed;
+pub mod printed_chart;
 pub mod reference;
 pub mod self_intersection;
 pub mod solve;
