@@ -30,4 +30,5 @@ pub mod spin_switch_points;
 pub mod spin_system;
 pub mod spin_trajectories;
 pub mod statement;
+pub mod surface;
 pub mod surfaces_of_revolution;
