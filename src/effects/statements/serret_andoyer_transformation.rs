@@ -84,23 +84,48 @@ fn second_impulse(form: Form) -> Result<Test, Unexamined> {
     })
 }
 
+/// Variables with `p2 sin Φ2 > 0`, or with `p2 sin Φ2 < 0`: the opposite of the sign of `sin g`.
+fn leaning(samples: &mut Samples, positive: bool) -> [Wide; 6] {
+    let mut x = variables(samples);
+    x[0] = if positive { -x[0].abs() } else { x[0].abs() };
+    x
+}
+
+/// An entry of the attitude that Φ1 decides, or Φ3, and what it is for the angles of section 2.4.
+fn outer_entry(samples: &mut Samples, x: [Wide; 6], form: Form, angle: impl Fn(Wide, Wide) -> Wide) -> [Wide; 3] {
+    let (r, _) = five_rotations(x);
+    let (cosine, lean) = printed_second(x);
+    let sine = ((Wide::ONE - cosine) * (Wide::ONE + cosine)).sqrt();
+    let [_, k, l, _, big_k, big_l] = x;
+    let (over_first, over_third) = (big_l - big_k * cosine, big_k - big_l * cosine);
+    let (first, third) = match form {
+        2 => (k + angle(over_third, lean), l + angle(over_first, lean)),
+        3 => (k - angle(over_first, lean), l - angle(over_third, lean)),
+        4 => (-(k + angle(over_first, lean)), -(l + angle(over_third, lean))),
+        _ => (k + angle(over_first, lean), l + angle(over_third, lean)),
+    };
+    // E3 = (sin Φ2 cos Φ1, sin Φ2 sin Φ1, cos Φ2), and e3 in the body (−sin Φ2 cos Φ3, sin Φ2 sin Φ3, cos Φ2).
+    let (left, right) = match samples.even(0.0, 4.0) as usize {
+        0 => (r[0][2], first.cos()),
+        1 => (r[1][2], first.sin()),
+        2 => (-r[2][0], third.cos()),
+        _ => (r[2][1], third.sin()),
+    };
+    [left, right * sine, Wide::ONE]
+}
+
 fn outer_angles(form: Form) -> Result<Test, Unexamined> {
     exact(303, |samples| {
+        let x = leaning(samples, form != 1);
+        outer_entry(samples, x, form, |over, lean| (over / lean).atan())
+    })
+}
+
+fn outer_angles_by_quadrant(form: Form) -> Result<Test, Unexamined> {
+    exact(315, |samples| {
         let x = variables(samples);
-        let (r, _) = five_rotations(x);
-        let (cosine, lean) = printed_second(x);
-        let sine = ((Wide::ONE - cosine) * (Wide::ONE + cosine)).sqrt();
-        let [_, k, l, _, big_k, big_l] = x;
-        let angle = |over: Wide| if form == 0 { (over / lean).atan() } else { over.atan2(lean) };
-        let (over_first, over_third) = (big_l - big_k * cosine, big_k - big_l * cosine);
-        let (first, third) = match form {
-            2 => (k + angle(over_third), l + angle(over_first)),
-            3 => (k - angle(over_first), l - angle(over_third)),
-            _ => (k + angle(over_first), l + angle(over_third)),
-        };
-        // E3 = (sin Φ2 cos Φ1, sin Φ2 sin Φ1, cos Φ2), and e3 in the body (−sin Φ2 cos Φ3, sin Φ2 sin Φ3, cos Φ2).
-        let (left, right) = if samples.sign() > 0.0 { (r[0][2], first.cos()) } else { (-r[2][0], third.cos()) };
-        [left, right * sine, Wide::ONE]
+        // The first wrong form is the principal value.
+        outer_entry(samples, x, form, |over, lean| if form == 1 { (over / lean).atan() } else { over.atan2(lean) })
     })
 }
 
@@ -353,11 +378,35 @@ pub const ALL: &[Statement] = &[
         place: PLACE,
         says: "Φ1 = k + arctan((L − K cos Φ2)/(p2 sin Φ2)), Φ3 = l + arctan((K − L cos Φ2)/(p2 sin Φ2)).",
         method: ROTATIONS,
-        shape: Shape::Slip { correction: "the arctangents in the quadrant of numerator and denominator" },
-        forms: &["principal values", "in the quadrant", "K and L exchanged", "k − arctan, l − arctan"],
+        shape: Shape::OnlyWhen { condition: "p2 sin Φ2 > 0; else the principal value is off by π" },
+        forms: &[
+            "p2 sin Φ2 > 0",
+            "p2 sin Φ2 < 0",
+            "K and L exchanged",
+            "k − arctan, l − arctan",
+            "the signs of both angles",
+        ],
         examine: outer_angles,
-        note: "The principal value is off by π wherever p2 sin Φ2 < 0.",
+        note: "",
     },
+    direct(
+        [
+            "outer_angles_by_quadrant",
+            "beyond the article, section 2.4",
+            "Φ1 is k plus the angle of the point (p2 sin Φ2, L − K cos Φ2), Φ3 is l plus that of (p2 sin Φ2, K − L cos Φ2): arctangents in \
+             the quadrant of numerator and denominator hold everywhere.",
+            ROTATIONS,
+        ],
+        &[
+            "derived here",
+            "principal values",
+            "K and L exchanged",
+            "k − arctan, l − arctan",
+            "the signs of both angles",
+        ],
+        outer_angles_by_quadrant,
+        "",
+    ),
     direct(
         [
             "symplectic",

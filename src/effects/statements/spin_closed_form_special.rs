@@ -4,6 +4,7 @@
 
 use super::spin_closed_form_regimes::random_starts;
 use super::spin_points::{POINTS, QUOTIENT, Wide, reason, slopes, wide};
+use super::spin_trajectories::travelled;
 use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::spin::lift::first_conjugate_time_by_integration;
@@ -125,13 +126,17 @@ const ROUND_PHASE: Statement = Statement {
     id: "spin_round_phase",
     place: PLACE,
     says: "For k = 1: β = p_θ t/2, λ = Gt/2, and A : B = s : 1 with s = Gt/2, so that Θ = s − arctan s.",
-    method: "δβ = t/2, δβ' = 1/2 put into A = 2G δβ, B = G² δβ' − p_θ β', random p_θ and t",
+    method: "δβ = t/2, δβ' = 1/2 put into A = 2G δβ, B = G² δβ' − p_θ β'; at the first conjugate time by integration Θ = π, and β by the momentum \
+             (2 sin β, −p_θ, 2 cos β) there; random p_θ",
     shape: Shape::Direct,
-    forms: &["derived here", "s = Gt", "s = t", "s = p_θ t/2"],
+    forms: &["derived here", "s = Gt", "s = t", "s = p_θ t/2", "β = p_θ t"],
     examine: |form| {
         let (mut samples, mut worst) = (Samples::new(564), Worst::default());
         for _ in 0..POINTS {
-            let (p, t, two) = (wide(samples.log(1e-3, 1e3)), wide(samples.log(1e-3, 10.0)), wide(2.0));
+            let (p, two) = (samples.log(1e-2, 1e2), wide(2.0));
+            let (first, _) = first_conjugate_time_by_integration(1.0, p, 1e-15, 10.0).map_err(unexamined)?;
+            let [.., h1, _, h3] = travelled(1.0, p, -2.0, first.t1)?;
+            let (p, t) = (wide(p), wide(first.t1));
             let g = (p * p + wide(4.0)).sqrt();
             let (a, b) = (two * g * t / two, g * g / two - p * p / two);
             let s = match form {
@@ -141,8 +146,12 @@ const ROUND_PHASE: Statement = Statement {
                 _ => g * t / two,
             };
             worst.see((a / b / s - Wide::ONE).to_f64());
+            worst.see(((s - s.atan()) / Wide::PI - Wide::ONE).to_f64());
+            let (sine, cosine) = (if form == 4 { p * t } else { p * t / two }).sin_cos();
+            worst.see(0.5 * h1 - sine.to_f64());
+            worst.see(0.5 * h3 - cosine.to_f64());
         }
-        Ok(worst.at_most(1e-20, "double-double; up to six digits cancel in B"))
+        Ok(worst.at_most(1e-12, "rounding of the integration"))
     },
     note: "",
 };

@@ -201,14 +201,18 @@ const CUSP_BELOW_ONE: Statement = Statement {
     place: "section 5.2.3",
     says: "For every k < 1 the cusp does not cross the equator: π < t1 < x for p_θ → 0, x the first positive root of tan x = x, so that it stays between the antipode of the start and \
            the cusp of k = 1.",
-    method: "first conjugate points in closed form at p_θ = 0 for random k down to 1e-4",
+    method: "first conjugate points in closed form at p_θ = 0 for random k, half of them evenly in the logarithm down to 1e-4, half close to 1",
     shape: Shape::Direct,
     forms: &["as printed, with the bounds derived here", "for k > 1 too", "below 5π/4"],
     examine: |form| {
         let (mut samples, mut cases) = (Samples::new(536), Cases::default());
         let x = tangent_root()?.to_f64();
-        for _ in 0..150 {
-            let k = if form == 1 { samples.log(1.01, 3.0) } else { 1.0 - samples.log(1e-6, 0.9999) };
+        for case in 0..150 {
+            let k = match (form, case % 2) {
+                (1, _) => samples.log(1.01, 3.0),
+                (_, 0) => samples.log(1e-4, 1.0),
+                _ => 1.0 - samples.log(1e-6, 0.9999),
+            };
             let start = Start::new(k, 0.0).map_err(unexamined)?;
             let point = first_conjugate_point(&start).map_err(unexamined)?;
             let high = if form == 2 { 1.25 * f64::PI } else { x };
