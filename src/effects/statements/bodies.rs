@@ -42,16 +42,17 @@ pub fn fine_slope(f: impl Fn(Wide) -> Wide, at: Wide, step: f64) -> Wide {
     sum / (wide(840.0) * h)
 }
 
+/// Node and weight of the rule of Gauss and Legendre with ten points, each with what is left when it is rounded.
+const NODES: [(f64, f64, f64, f64); 5] = [
+    (0.14887433898163122, -4.8210770585131585e-18, 0.29552422471475287, 1.4926748620194873e-19),
+    (0.4333953941292472, -2.2600214699526867e-17, 0.26926671930999635, 5.461783364364092e-18),
+    (0.6794095682990244, -2.9354889953805544e-17, 0.21908636251598204, 2.4077873034994635e-18),
+    (0.8650633666889845, -2.561358899462181e-17, 0.1494513491505806, 6.257139381592662e-18),
+    (0.9739065285171717, -2.3352971736535508e-17, 0.06667134430868814, -3.981897278437097e-19),
+];
+
 /// The integral over `(from, to)` by the rule of Gauss and Legendre with ten points on each of `pieces` equal parts.
 pub fn integral(f: impl Fn(Wide) -> Wide, from: Wide, to: Wide, pieces: usize) -> Wide {
-    /// Node and weight, each with what is left when it is rounded.
-    const NODES: [(f64, f64, f64, f64); 5] = [
-        (0.14887433898163122, -4.8210770585131585e-18, 0.29552422471475287, 1.4926748620194873e-19),
-        (0.4333953941292472, -2.2600214699526867e-17, 0.26926671930999635, 5.461783364364092e-18),
-        (0.6794095682990244, -2.9354889953805544e-17, 0.21908636251598204, 2.4077873034994635e-18),
-        (0.8650633666889845, -2.561358899462181e-17, 0.1494513491505806, 6.257139381592662e-18),
-        (0.9739065285171717, -2.3352971736535508e-17, 0.06667134430868814, -3.981897278437097e-19),
-    ];
     let half = (to - from) / wide(2.0 * pieces as f64);
     let mut sum = Wide::ZERO;
     for piece in 0..pieces {
@@ -62,6 +63,17 @@ pub fn integral(f: impl Fn(Wide) -> Wide, from: Wide, to: Wide, pieces: usize) -
         }
     }
     sum * half
+}
+
+/// Places and weights of the same rule on `(0, to)`, in order.
+pub fn gauss_points(to: f64, pieces: u32) -> Vec<[f64; 2]> {
+    let half = to / f64::from(2 * pieces);
+    let of_piece = |piece: u32| {
+        let middle = half * f64::from(2 * piece + 1);
+        let before = NODES.into_iter().rev().map(move |(node, _, weight, _)| [middle - half * node, half * weight]);
+        before.chain(NODES.into_iter().map(move |(node, _, weight, _)| [middle + half * node, half * weight]))
+    };
+    (0..pieces).flat_map(of_piece).collect()
 }
 
 /// Compares the two sides of an identity at `cases` random points, relative to the larger of them and of the third number.

@@ -117,12 +117,10 @@ fn non_degenerate(form: Form) -> Result<Test, Unexamined> {
         let along_x = by(&|x| constants(&body, y0, x, p_y), p, step);
         let along_y = by(&|y| constants(&body, y0, p, y), p_y, step);
         let determinant = along_x[0] * along_y[1] - along_y[0] * along_x[1];
-        // In units of what both factors are made of.
+        // In units of p_y, C − z/2 and the root at their largest; the samples keep p_y/p_x above a millionth, C p_x² − 2h above a thousandth.
         let Body { a, b, c } = body;
-        let scale = p_y.abs().max(wide(1e-6) * p) * (c - b) / (p * p) * ((c - a) / (b - a)).sqrt();
-        cases.see(determinant.abs() > wide(1e-8) * scale * wide(near.sqrt()).min(wide(1e-4)) && near > 1e-20, || {
-            format!("ξ1 = {}", motion.xi1.to_f64())
-        });
+        let scale = p * (c - a) * (wide(2.0) / (p * p)) * (c / (b - a)).sqrt();
+        cases.see(determinant.abs() > wide(1e-10) * scale, || format!("ξ1 = {}", motion.xi1.to_f64()));
     }
     Ok(cases.none())
 }
@@ -248,20 +246,18 @@ fn zeros_of_sn(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut cases) = (Samples::new(609), Cases::default());
     for _ in 0..100 {
         let motion = Motion::ordinary(&mut samples);
-        let t1 = conjugate_after(&motion, motion.p_y().to_f64(), motion.y0().to_f64(), 0.0)?;
-        let other = match form {
-            1 => wide(t1) * motion.speed,
-            2 => motion.k + motion.k,
-            _ => wide(2.0) * motion.k - motion.psi0,
+        let zero = wide(2.0) * motion.k - motion.psi0;
+        let phase = match form {
+            1 => wide(conjugate_after(&motion, motion.p_y().to_f64(), motion.y0().to_f64(), 0.0)?) * motion.speed,
+            2 => motion.k * wide(1e-15),
+            _ => zero * wide(1.0 + samples.sign() * 1e-12),
         };
-        // Left side of (18), with the pole of I at the zero of sn multiplied out: sn·(ΛT − T + E-terms) + cn dn.
-        let j = Jacobi::new(other + motion.psi0, motion.m, motion.mc);
-        let j0 = Jacobi::new(motion.psi0, motion.m, motion.mc);
-        let epsilon = |u: Wide| jacobi_epsilon(u, motion.m, motion.mc);
-        let plain = epsilon(other + motion.psi0) - epsilon(motion.psi0) - j0.cn * j0.dn / j0.sn;
-        let left = j.sn * ((lambda(&motion.body, motion.xi1) - Wide::ONE) * other + plain) + j.cn * j.dn;
-        let is_zero_of_sn = j.sn.abs() < wide(1e-20);
-        cases.see(is_zero_of_sn && left.abs() > wide(1e-6), || format!("ξ1 = {}", motion.xi1.to_f64()));
+        // Left side of (18), in units of what multiplies the integral. The pole of I at the zero of sn is cn dn/sn in (17).
+        let j = Jacobi::new(phase + motion.psi0, motion.m, motion.mc);
+        let pole = if form == 3 { j.cn * j.dn / j.sn } else { Wide::ZERO };
+        let integral = phase - rest_of_i(&motion, phase) + pole;
+        let left = j.sn * (lambda(&motion.body, motion.xi1) * phase - integral);
+        cases.see(left.abs() > wide(1e-6), || format!("ξ1 = {}", motion.xi1.to_f64()));
     }
     Ok(cases.none())
 }
@@ -424,7 +420,7 @@ pub const ALL: &[Statement] = &[
         ],
         &["as printed", "a minus before cn dn/sn", "cn² below", "plus the integral"],
         second_kind,
-        "",
+        "From one side of a zero of sn to the other the integral diverges: there the left side defines I, as its continuation.",
     ),
     direct(
         [
@@ -435,16 +431,16 @@ pub const ALL: &[Statement] = &[
         ],
         &["as printed", "A for A(1 − ξ1)", "A and B exchanged", "1 − Λ"],
         equation_15,
-        "",
+        "Every conjugate time lies beyond T = 2K − ψ0, where the integral diverges; it holds for the continuation of I by (17).",
     ),
     direct(
         [
             "zeros_of_sn",
             "after eq. (18)",
             "The zeros of sn do not solve (18): only those of the bracket do.",
-            "left side of (18) at T = 2K − ψ0, its pole multiplied out",
+            "left side of (18) beside T = 2K − ψ0, with I by (17)",
         ],
-        &["as printed", "at a conjugate time", "at T = 2K"],
+        &["as printed", "at a conjugate time", "at T = 0", "I without its pole"],
         zeros_of_sn,
         "",
     ),

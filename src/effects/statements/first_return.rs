@@ -58,10 +58,12 @@ fn symmetry_of_mu(form: Form) -> Result<Test, Unexamined> {
         let at_zero = slope(|x| slope(mu, x, step), Wide::ZERO, step);
         let Body { a, b, c } = body;
         let bend = -(wide(2.0) * (b - a) * (c - a) / (a * a));
-        let even = mu(-phi) == mu(phi) && slope(mu, Wide::ZERO, step).abs() < wide(1e-18);
+        // Relative: that both are the same function, not the same roundings.
+        let same = |x: Wide, y: Wide| ((mu(x) - mu(y)) / mu(y)).abs() < wide(1e-24);
+        let even = same(-phi, phi) && slope(mu, Wide::ZERO, step).abs() < wide(1e-18);
         let holds = match form {
-            1 => mu(-phi) == mu(phi) && first > Wide::ZERO,
-            2 => mu(half_width(&body) - phi) == mu(phi),
+            1 => even && first > Wide::ZERO,
+            2 => same(half_width(&body) - phi, phi),
             _ => even && first < Wide::ZERO && ((at_zero - bend) / bend).abs() < wide(1e-8),
         };
         cases.see(holds, || format!("φ α/K = {}", (phi / half_width(&body)).to_f64()));
@@ -189,18 +191,17 @@ fn potential(form: Form) -> Result<Test, Unexamined> {
     Ok(worst.at_most(1e-12, "rounding of an integration over a period"))
 }
 
-fn falls_and_is_convex(form: Form) -> Result<Test, Unexamined> {
+fn falls_and_is_convex(form: Form, value: fn(&Body, Wide) -> Wide) -> Result<Test, Unexamined> {
     let (mut samples, mut cases) = (Samples::new(1020), Cases::default());
     for _ in 0..100 {
         let (body, p) = body_and_clairaut(&mut samples);
         let h = step_of(&body, p);
+        let first = |p: Wide| fine_slope(|p| value(&body, p), p, h);
+        let bend = fine_slope(first, p, h);
         let (falls, bends) = match form {
-            1 => (quarter(&body, p) - quarter(&body, p - wide(h)) > Wide::ZERO, true),
-            _ => {
-                let first = |p: Wide| fine_slope(|p| first_return(&body, p, 0), p, h);
-                let bend = fine_slope(first, p, h);
-                (first(p) < Wide::ZERO, if form == 2 { bend < Wide::ZERO } else { bend > Wide::ZERO })
-            }
+            1 => (first(p) > Wide::ZERO, bend > Wide::ZERO),
+            2 => (first(p) < Wide::ZERO, bend < Wide::ZERO),
+            _ => (first(p) < Wide::ZERO, bend > Wide::ZERO),
         };
         cases.see(falls && bends, || format!("p_θ = {} on {:?}", p.to_f64(), body.short()));
     }
@@ -236,13 +237,36 @@ fn cut_ray(form: Form) -> Result<Test, Unexamined> {
         let z0 = z_at(&body, phi0);
         let (low, high) = (Wide::ONE / body.b.sqrt(), Wide::ONE / if form == 2 { body.a.sqrt() } else { z0.sqrt() });
         let p = low + (high - low) * wide(unit(&mut samples));
-        // Both branches of p_θ meet on the ray at θ = Δθ(p_θ); its end is the cusp's angle, and it has no other one.
+        // θ = Δθ(p_θ) on the ray; its end is the cusp's angle, and it has no other one.
         let (here, end) = (first_return(&body, p, 0), first_return(&body, Wide::ONE / z0.sqrt(), 0));
-        let far = first_return(&body, low + (p - low) * wide(1e-4), 0);
+        // Towards the separatrix it grows like a logarithm: by the same again for the same factor of the distance, without bound.
+        let short = (p - low).min(wide(1e-6) * low);
+        let beside = |part: f64| first_return(&body, low + short * wide(part), 0);
+        let [first, second] = [beside(1e-4) - beside(1.0), beside(1e-8) - beside(1e-4)];
+        let grows = (first / second - Wide::ONE).abs() < wide(1e-2) && first > Wide::ZERO;
         let holds = if form == 1 { here < end } else { here > end };
-        cases.see(holds && far > here, || format!("φ0 α/K = {}", (phi0 / half_width(&body)).to_f64()));
+        cases.see(holds && grows, || format!("φ0 α/K = {}", (phi0 / half_width(&body)).to_f64()));
     }
     Ok(cases.none())
+}
+
+fn meeting_on_ray(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(1023), Worst::default());
+    for _ in 0..100 {
+        let motion = motion(&mut samples);
+        let half = 2.0 * (motion.k / motion.speed).to_f64();
+        let time = if form == 1 { half * 0.75 } else { half };
+        let (y0, p_y) = (motion.y0().to_f64(), motion.p_y().to_f64());
+        // φ is odd about y = π/2: −φ0 is π − y0.
+        let y = if form == 2 { y0 } else { std::f64::consts::PI - y0 };
+        let angle = first_return(&motion.body, motion.p, if form == 3 { 2 } else { 0 }).to_f64();
+        for p_y in [p_y, -p_y] {
+            let end = states(&motion, p_y, &[time])?[0];
+            worst.see(end[1] - y);
+            worst.compare(end[0], angle, 0.0);
+        }
+    }
+    Ok(worst.at_most(1e-12, "rounding of an integration over half a period"))
 }
 
 const PLACE: &str = "section 3.3.3";
@@ -330,8 +354,19 @@ pub const ALL: &[Statement] = &[
             "Δθ(p_θ) is strictly decreasing and strictly convex on (B^(−1/2), A^(−1/2)): the flow is tame.",
             BY_SLOPES,
         ],
-        &["as printed", "the period grows", "concave"],
-        falls_and_is_convex,
+        &["as printed", "it grows", "concave"],
+        |form| falls_and_is_convex(form, |body, p| first_return(body, p, 0)),
+        "",
+    ),
+    direct(
+        [
+            "period_falls_and_is_convex",
+            CONVEX,
+            "T(p_θ) = 4K(m)/M is strictly decreasing and strictly convex on (B^(−1/2), A^(−1/2)).",
+            BY_SLOPES,
+        ],
+        &["as printed", "it grows", "concave"],
+        |form| falls_and_is_convex(form, quarter),
         "",
     ),
     direct(
@@ -349,12 +384,23 @@ pub const ALL: &[Statement] = &[
         [
             "cut_ray",
             "section 5.1, Figure 3",
-            "Extremals of one p_θ from (0, φ0) meet at (Δθ(p_θ), −φ0): these points form the ray θ ≥ θ*(φ0), θ* = Δθ(√μ(φ0)) being the cusp's angle.",
-            "printed first return at random φ0 and p_θ, and close to the separatrix",
+            "The points (Δθ(p_θ), −φ0) form the ray θ ≥ θ*(φ0), θ* = Δθ(√μ(φ0)) being the cusp's angle; towards the separatrix Δθ grows like a logarithm.",
+            "printed first return at random φ0 and p_θ, and ever closer to the separatrix",
         ],
         &["as printed", "θ ≤ θ*", "all p_θ up to A^(−1/2)"],
         cut_ray,
         "That no earlier point is a cut point is looked at with the wave fronts of Figure 3.",
+    ),
+    direct(
+        [
+            "meeting_on_ray",
+            "section 5.1, Figure 3",
+            "The two extremals of one p_θ from (0, φ0) meet at (Δθ(p_θ), −φ0), half a period after the start.",
+            "both integrated, against the printed first return",
+        ],
+        &["as printed", "after three quarters of that", "at φ0", "half of Δθ"],
+        meeting_on_ray,
+        "",
     ),
 ];
 
