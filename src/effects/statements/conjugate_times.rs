@@ -343,6 +343,57 @@ fn whole_determinant(form: Form) -> Result<Test, Unexamined> {
     })
 }
 
+fn delta_over_sine(form: Form) -> Result<Test, Unexamined> {
+    exact(614, |samples| {
+        let (motion, t) = motion_and_phase(samples);
+        let (Body { a, b, .. }, xi1, one) = (motion.body, motion.xi1, Wide::ONE);
+        let at = |u: Wide| Jacobi::new(u, motion.m, motion.mc);
+        let (j, j0) = (at(t + motion.psi0), at(motion.psi0));
+        let epsilon = |u: Wide| jacobi_epsilon(u, motion.m, motion.mc);
+        let plain = epsilon(t + motion.psi0) - epsilon(motion.psi0) + j.cn * j.dn / j.sn;
+        let start = if form == 2 { j0.cn } else { j0.cn * j0.dn };
+        let last = if form == 1 { -(a * (one - xi1) * start) } else { a * (one - xi1) * start };
+        let sum = b * j0.sn * xi1 * plain - b * xi1 * start + a * (one - xi1) * j0.sn * (plain - t) - last;
+        let right = if form == 3 { sum } else { sum / j0.sn };
+        [delta(&motion, t, 0), right, wide(1e-3) * b]
+    })
+}
+
+fn determinant_at_rest(form: Form) -> Result<Test, Unexamined> {
+    super::bodies::identity(615, 100, 1e-12, "error of a difference quotient of fourth order", |samples| {
+        let motion = Motion::ordinary(samples);
+        let motion = Motion::posed(motion.body, motion.p, motion.xi1, Wide::ONE);
+        let (Body { a, b, c }, Motion { xi1, xi3, p, .. }) = (motion.body, motion);
+        let (y0, phase) =
+            (motion.y0(), wide(samples.even(0.1, 0.9) + f64::from(samples.even(0.0, 4.0) as u32)) * motion.k);
+        let t = phase / motion.speed;
+        let end = |p_x: Wide, p_y: Wide| {
+            let start = Start::Momenta { y0, p_x, p_y };
+            let nan = wide(f64::NAN);
+            Metric::new(a, b, c).and_then(|metric| Extremal::new(&metric, start)).map_or([nan; 2], |extremal| {
+                let at = extremal.position(t);
+                [at.x, at.y]
+            })
+        };
+        let step = 1e-6 * p.to_f64();
+        let by_x = slopes(|x| end(x, Wide::ZERO), p, step);
+        let by_y = slopes(|y| end(p, y), Wide::ZERO, step);
+        let left = by_x[0] * by_y[1] - by_y[0] * by_x[1];
+        let (one, two) = (Wide::ONE, wide(2.0));
+        let j = Jacobi::new(phase, motion.m, motion.mc);
+        // (19) with sn0 → 0: what does not vanish, times t (Bξ1 + A(1 − ξ1)) sn.
+        let second = two / (p * p * p) * ((c * p * p - two * motion.h) / (b - a)).sqrt();
+        let front = p * (c - motion.body.z_half(y0)) * second * j.dn
+            / (two * (b - a) * (xi3 - xi1) * (one - xi1 * j.sn * j.sn));
+        let bracket = match form {
+            1 => b * xi1 - a * (one - xi1),
+            2 => a * xi1 + b * (one - xi1),
+            _ => b * xi1 + a * (one - xi1),
+        };
+        [left, front * t * bracket * if form == 3 { j.cn } else { j.sn }, Wide::ZERO]
+    })
+}
+
 const LEMMA_4: &str = "Lemma 3.4 and its proof";
 const LEMMA_5: &str = "Lemma 3.5 and its proof";
 const LEMMA_8: &str = "Lemma 3.8 and its proof";
@@ -466,6 +517,28 @@ pub const ALL: &[Statement] = &[
         examine: root_of_start,
         note: "dn0 → 1 for ψ0 → 0, where the proof uses it. Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
     },
+    direct(
+        [
+            "delta_over_sine",
+            LEMMA_8,
+            "Δ_Mt = (1/sn0) [B sn0 ξ1 (E(T + ψ0) − E(ψ0) + cn dn/sn) − Bξ1 cn0 dn0 + A(1 − ξ1) sn0 (the same bracket − T) − A(1 − ξ1) cn0 dn0].",
+            "the Δ_T of Lemma 3.5 at random phases",
+        ],
+        &["as printed", "the sign of the last term", "without dn0", "without 1/sn0"],
+        delta_over_sine,
+        "",
+    ),
+    direct(
+        [
+            "determinant_at_rest",
+            LEMMA_8,
+            "For cos² y0 = ξ1 the determinant of the end-point map is t (Bξ1 + A(1 − ξ1)) sn(Mt|m) times what does not vanish.",
+            "difference quotients of the end point by p_x and p_y(0) at p_y(0) = 0",
+        ],
+        &["as printed, with the factor", "a minus in the bracket", "A and B exchanged", "cn for sn"],
+        determinant_at_rest,
+        "The factor is p_x (C − z(0)/2) (2/p_x³) √((C p_x² − 2h)/(B − A)) dn/(2(B − A)(ξ3 − ξ1)(1 − ξ1 sn²)), the limit of (19).",
+    ),
     direct(
         [
             "whole_determinant",
