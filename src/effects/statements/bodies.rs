@@ -279,30 +279,3 @@ pub fn unit(samples: &mut Samples) -> f64 {
         _ => samples.even(0.1, 0.9),
     }
 }
-
-/// Asserts what every page of statements asserts of itself: each is examined, comes out as expected, refuses at least two wrong forms, and
-/// has a name of its own. `fails` names the statements that are false as they stand.
-#[cfg(test)]
-pub fn expect_outcomes(all: &[Statement], fails: &[&str]) {
-    use crate::contract::claim::Evidence;
-    let mut names: Vec<&str> = all.iter().map(|statement| statement.id).collect();
-    names.sort_unstable();
-    names.dedup();
-    assert_eq!(names.len(), all.len(), "two statements of one name");
-    for statement in all {
-        let examined = statement.examined().unwrap();
-        let evidence = &examined.claim.evidence;
-        let expected = match evidence {
-            Evidence::Direct(test) => test.holds() != fails.contains(&statement.id),
-            Evidence::Slip { printed, corrected, .. } => !printed.holds() && corrected.holds(),
-            Evidence::OnlyWhen { inside, outside, .. } => inside.holds() && !outside.holds(),
-            Evidence::NotChecked { .. } => true,
-        };
-        assert!(expected, "{}: {evidence:?}", statement.id);
-        if !matches!(evidence, Evidence::NotChecked { .. }) {
-            assert!(examined.variants.len() >= 2, "{}: two wrong forms at least", statement.id);
-        }
-        let survivors: Vec<_> = examined.survivors().collect();
-        assert!(survivors.is_empty(), "{}: {survivors:?}", statement.id);
-    }
-}

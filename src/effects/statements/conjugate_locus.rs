@@ -563,11 +563,3 @@ pub const ALL: &[Statement] = &[
         note: "θ' = p_θ/μ = √A there. The figure's body is looked at on its own in Remark 3.25's experiment.",
     },
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_statement_has_the_expected_outcome() {
-        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
-    }
-}

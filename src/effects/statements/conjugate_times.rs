@@ -551,11 +551,3 @@ pub const ALL: &[Statement] = &[
         "Here for every start, not only at rest in y.",
     ),
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_statement_has_the_expected_outcome() {
-        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
-    }
-}

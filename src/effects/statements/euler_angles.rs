@@ -38,6 +38,12 @@ fn velocity(angles: [Wide; 3], rates: [Wide; 3]) -> [Wide; 3] {
     [entry(2, 1), entry(0, 2), entry(1, 0)]
 }
 
+/// `R M`, the momentum in space at a point of the chart.
+pub fn momentum_in_space(x: &[Wide; 6]) -> [Wide; 3] {
+    let (r, m) = (attitude([x[0], x[1], x[2]]), momentum(x));
+    r.map(|row| row[0] * m[0] + row[1] * m[1] + row[2] * m[2])
+}
+
 fn right_invariant_lifts(form: Form) -> Result<Test, Unexamined> {
     by_differences(201, |samples| {
         let (body, at) = (Body::any(samples), chart_point(samples));
@@ -213,11 +219,3 @@ pub const ALL: &[Statement] = &[
                introduction counts them.",
     },
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_statement_has_the_expected_outcome() {
-        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
-    }
-}

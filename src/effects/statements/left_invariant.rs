@@ -317,11 +317,3 @@ const FIRST_INTEGRALS: Statement = Statement {
     },
     note: "",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -293,11 +293,3 @@ fn any_start(form: Form) -> Result<Test, Unexamined> {
     }
     Ok(worst.at_most(QUOTIENT, reason(QUOTIENT)))
 }
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

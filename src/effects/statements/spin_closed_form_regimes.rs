@@ -367,11 +367,3 @@ pub const ALL: &[Statement] = &[
         |form| node_angle(529, Oscillating, form),
     ),
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -192,11 +192,3 @@ fn one_integral(form: Form) -> Result<Test, Unexamined> {
     }
     Ok(worst.at_most(1e-12, "rounding of the integration, times the growth of the flow"))
 }
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

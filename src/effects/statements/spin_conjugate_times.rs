@@ -192,11 +192,3 @@ const HALF_TURNS: Statement = Statement {
     },
     note: "",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -324,11 +324,3 @@ fn cut_locus(form: Form) -> Result<Test, Unexamined> {
     }
     Ok(cases.none())
 }
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -251,11 +251,3 @@ const LIOUVILLE: Statement = Statement {
     },
     note: "Not in the article, which says only that such a form exists.",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -323,11 +323,3 @@ const AT_THE_START: Statement = Statement {
     },
     note: "",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -458,11 +458,3 @@ pub const ALL: &[Statement] = &[
         note: "Inverse functions are taken with their principal values: nothing in the article chooses a branch by the sign of α'(0).",
     },
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -145,31 +145,3 @@ pub fn reason(tolerance: f64) -> &'static str {
         "difference quotients in double-double"
     }
 }
-
-/// What the statements of a file must show: those of `false_ones` fail, all others stand as their shape says, and no wrong form passes.
-#[cfg(test)]
-pub mod expected {
-    use crate::contract::claim::Evidence;
-    use crate::effects::statements::statement::Statement;
-    use std::collections::BTreeSet;
-
-    /// Asserts it.
-    pub fn stand(all: &[Statement], false_ones: &[&str]) {
-        let ids: BTreeSet<_> = all.iter().map(|statement| statement.id).collect();
-        assert_eq!(ids.len(), all.len(), "an id stands twice");
-        assert!(false_ones.iter().all(|id| ids.contains(id)));
-        for statement in all {
-            let examined = statement.examined().unwrap();
-            let stands = match &examined.claim.evidence {
-                Evidence::Direct(test) => test.holds(),
-                Evidence::Slip { printed, corrected, .. } => !printed.holds() && corrected.holds(),
-                Evidence::OnlyWhen { inside, outside, .. } => inside.holds() && !outside.holds(),
-                Evidence::NotChecked { .. } => continue,
-            };
-            assert_eq!(stands, !false_ones.contains(&statement.id), "{:#?}", examined.claim);
-            assert!(examined.variants.len() >= 2, "{} has too few wrong forms", statement.id);
-            let survivors: Vec<_> = examined.survivors().collect();
-            assert!(survivors.is_empty(), "{}: {survivors:#?}", statement.id);
-        }
-    }
-}

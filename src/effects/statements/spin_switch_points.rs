@@ -378,11 +378,3 @@ const VERTICAL_TANGENT: Statement = Statement {
     },
     note: "A relative error of one ε in p_θ moves t1 by about its cube root there: the condition of the problem, not of a method.",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

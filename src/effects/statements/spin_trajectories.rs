@@ -275,11 +275,3 @@ const SPIN_ANGLE: Statement = Statement {
     note: "The numerator stays positive, so that only the sign of p2 sin Φ2 decides. With l = y0 − π, which projects on the same curve since (9) has the \
            period π in y, the printed value is the limit in the quadrant.",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

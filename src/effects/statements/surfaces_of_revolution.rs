@@ -666,11 +666,3 @@ pub const ALL: &[Statement] = &[
         "",
     ),
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_statement_has_the_expected_outcome() {
-        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
-    }
-}
