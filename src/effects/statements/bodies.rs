@@ -1,46 +1,21 @@
-//! What the checks of sections 2 and 3 share: long numbers, difference quotients, quadrature, random bodies and motions.
+//! What the checks of sections 2 and 3 share: comparisons of two sides, quadrature, random bodies and motions.
 //!
 //! Identities are compared in double-double, so that a gap between two moments of inertia of a thousandth costs nothing. Motions are
 //! posed by the article's constants, written out here and not taken from the `geometry` room: `ξ1 = (2h − A p_x²)/((B − A) p_x²)`,
 //! `ξ3 = (C − A)/(B − A)`, and `m`, `m'`, `M` from three energies that are differences of inputs.
 
+use super::differences::{Wide, wide};
 use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
-use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::elliptic::incomplete::incomplete_f_sc;
 use crate::numerics::elliptic::mean::complete_k;
 use crate::numerics::real::Real;
-
-/// The numbers of the identities: 32 digits.
-pub type Wide = DoubleDouble;
 
 /// What an identity in double-double may miss: 32 digits less those that thousandth gaps between the moments of inertia cost.
 pub const EXACT: f64 = 1e-20;
 
 /// What a difference quotient may miss: its error is the fourth power of its step, 1e-5 of the argument or less, times a fifth derivative.
 pub const BY_DIFFERENCES: f64 = 1e-12;
-
-/// A number of 32 digits from one of 16.
-pub fn wide(x: f64) -> Wide {
-    Wide::from_f64(x)
-}
-
-/// The derivative by the central difference of fourth order.
-pub fn slope(f: impl Fn(Wide) -> Wide, at: Wide, step: f64) -> Wide {
-    let h = wide(step);
-    let near = f(at + h) - f(at - h);
-    let far = f(at + h + h) - f(at - h - h);
-    (wide(8.0) * near - far) / (wide(12.0) * h)
-}
-
-/// The derivative by the central difference of eighth order: for second derivatives and beside singularities.
-pub fn fine_slope(f: impl Fn(Wide) -> Wide, at: Wide, step: f64) -> Wide {
-    let h = wide(step);
-    let difference = |count: f64| f(at + wide(count) * h) - f(at - wide(count) * h);
-    let sum = wide(672.0) * difference(1.0) - wide(168.0) * difference(2.0) + wide(32.0) * difference(3.0)
-        - wide(3.0) * difference(4.0);
-    sum / (wide(840.0) * h)
-}
 
 /// Node and weight of the rule of Gauss and Legendre with ten points, each with what is left when it is rounded.
 const NODES: [(f64, f64, f64, f64); 5] = [

@@ -3,9 +3,9 @@
 //! At arc length, `2h = 1`. Integrals over φ are taken over `y`, `dφ = dy/√(C − Z)`; conjugate points are zeros of the integrated variation of
 //! (9), or, where they are differentiated by `p_θ`, the closed form of the `geometry` room in double-double.
 
-use super::bodies::{Body, Motion, Wide, direct, exact, identity, integral, slope, unit, wide};
-use super::conjugate_times::slopes;
+use super::bodies::{Body, Motion, direct, exact, identity, integral, unit};
 use super::darboux_form::{body_and_phi, jacobi, z_at};
+use super::differences::{Wide, slope_of_order_4, slopes_of_order_4, wide};
 use super::first_return::{body_and_clairaut, constants, first_return, motion, step_of};
 use super::pendulum::states;
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
@@ -66,8 +66,8 @@ fn slopes_of_f(form: Form) -> Result<Test, Unexamined> {
         let f_at = |p: Wide| p / (mu.sqrt() * (mu - p * p).sqrt());
         // f is singular at p_θ = √μ only.
         let step = 1e-5 * (1.0 - part) * mu.sqrt().to_f64();
-        let first = slope(f_at, p, step);
-        let second = slope(|p| slope(f_at, p, step), p, step);
+        let first = slope_of_order_4(f_at, p, step);
+        let second = slope_of_order_4(|p| slope_of_order_4(f_at, p, step), p, step);
         let rest = mu - p * p;
         let (one, two) = match form {
             1 => (-(mu.sqrt() / (rest * rest.sqrt())), second),
@@ -120,7 +120,7 @@ fn conjugacy(form: Form) -> Result<Test, Unexamined> {
         let [y, _] = conjugate(&motion, motion.y0().to_f64())?;
         let left = -over_phi(&body, p, 1, equator, wide(y));
         let start = over_phi(&body, p, 1, motion.y0(), equator);
-        let change = slope(|p| first_return(&body, p, 0), p, step_of(&body, p));
+        let change = slope_of_order_4(|p| first_return(&body, p, 0), p, step_of(&body, p));
         let right = match form {
             1 => -start + change,
             2 => start - change,
@@ -144,7 +144,7 @@ fn right_side_is_positive(form: Form) -> Result<Test, Unexamined> {
             (_, 0) => Wide::ZERO,
             _ => -below,
         };
-        let change = slope(|p| first_return(&body, p, 0), p, step_of(&body, p));
+        let change = slope_of_order_4(|p| first_return(&body, p, 0), p, step_of(&body, p));
         let value = match form {
             2 => -start + change,
             3 => -start + wide(0.5) * change,
@@ -201,9 +201,9 @@ fn motion_of_locus(form: Form) -> Result<Test, Unexamined> {
         let (motion, phi0, step) = locus_start(samples);
         let (body, p, equator) = (motion.body, motion.p, Wide::PI / wide(2.0));
         let y = locus(&body, phi0, p)[2];
-        let along = slope(|p| locus(&body, phi0, p)[1], p, step);
+        let along = slope_of_order_4(|p| locus(&body, phi0, p)[1], p, step);
         let large = 50.0 * step;
-        let bend = slope(|p| slope(|p| first_return(&body, p, 0), p, large), p, large);
+        let bend = slope_of_order_4(|p| slope_of_order_4(|p| first_return(&body, p, 0), p, large), p, large);
         let (start, end) = (over_phi(&body, p, 2, motion.y0(), equator), over_phi(&body, p, 2, equator, y));
         let right = match form {
             1 => bend - start + end,
@@ -219,7 +219,7 @@ fn tangent_of_locus(form: Form) -> Result<Test, Unexamined> {
         let (motion, phi0, step) = locus_start(samples);
         let (body, p) = (motion.body, motion.p);
         let y = locus(&body, phi0, p)[2];
-        let [by_theta, by_phi] = slopes(
+        let [by_theta, by_phi] = slopes_of_order_4(
             |p| {
                 let [theta, phi, _] = locus(&body, phi0, p);
                 [theta, phi]
@@ -323,7 +323,7 @@ fn slope_at_cusp(form: Form) -> Result<Test, Unexamined> {
                 let [theta, phi, _] = locus(&body, phi0, p);
                 [theta, phi]
             };
-            let [by_theta, by_phi] = slopes(along, p, 1e-3 * short * p.to_f64());
+            let [by_theta, by_phi] = slopes_of_order_4(along, p, 1e-3 * short * p.to_f64());
             (by_theta / by_phi).abs()
         };
         // Ten times as steep for a hundredth of the distance.

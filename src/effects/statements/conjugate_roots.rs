@@ -3,8 +3,9 @@
 //! Roots are counted by structure, not by scanning: between two poles of `I`, at `2jK − ψ0`, `I(τ) − Λτ` grows, since `I' = 1/sn² ≥ 1 ≥ Λ`;
 //! so it has one root on an interval without a pole exactly when its signs at the ends differ.
 
-use super::bodies::{Body, Motion, Wide, by_differences, direct, exact, slope, unit, wide};
+use super::bodies::{Body, Motion, by_differences, direct, exact, unit};
 use super::conjugate_times::{lambda, rest_of_i};
+use super::differences::{Wide, slope_of_order_4, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::serret_andoyer::flow::{SerretAndoyerFlow, first_conjugate_time_by_integration};
@@ -251,7 +252,7 @@ fn slope_of_half_period(form: Form) -> Result<Test, Unexamined> {
             _ => xi1 * motion.k - gap,
         };
         let down = if form == 2 { (one - xi1) * motion.speed } else { (one - xi1) * xi1 * motion.speed };
-        [slope(half, xi1, step), up / down, Wide::ZERO]
+        [slope_of_order_4(half, xi1, step), up / down, Wide::ZERO]
     })
 }
 
@@ -259,7 +260,7 @@ fn slope_of_xi1(form: Form) -> Result<Test, Unexamined> {
     by_differences(712, |samples| {
         let motion = Motion::oscillating(samples);
         let (Body { a, b, .. }, p, h2) = (motion.body, motion.p, wide(2.0) * motion.h);
-        let left = slope(|p| (h2 - a * p * p) / (p * p * (b - a)), p, 1e-5 * p.to_f64());
+        let left = slope_of_order_4(|p| (h2 - a * p * p) / (p * p * (b - a)), p, 1e-5 * p.to_f64());
         let printed = -(wide(2.0) * h2 / (p * p * p));
         let right = match form {
             0 => printed,

@@ -3,7 +3,8 @@
 //! Determinants are difference quotients in double-double, of Proposition 3.2 written out here or of the paths of the `geometry` room;
 //! conjugate times are zeros of the integrated variation of (9).
 
-use super::bodies::{Body, Motion, Wide, by_differences, direct, exact, slope, wide};
+use super::bodies::{Body, Motion, by_differences, direct, exact};
+use super::differences::{Wide, slope_of_order_4, slopes_of_order_4, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::serret_andoyer::flow::first_conjugate_time_by_integration;
@@ -38,16 +39,9 @@ fn energy_constants(&Body { a, b, c }: &Body, p_x: Wide, h: Wide) -> [Wide; 2] {
     [((b - a) * (c * p_x * p_x - h2)).sqrt(), (h2 / (p_x * p_x) - a) / (b - a)]
 }
 
-/// The derivatives of two functions by the central difference of fourth order.
-pub fn slopes(f: impl Fn(Wide) -> [Wide; 2], at: Wide, step: f64) -> [Wide; 2] {
-    let h = wide(step);
-    let (far_back, back, on, far_on) = (f(at - h - h), f(at - h), f(at + h), f(at + h + h));
-    [0, 1].map(|i| (wide(8.0) * (on[i] - back[i]) - (far_on[i] - far_back[i])) / (wide(12.0) * h))
-}
-
 fn jacobian(f: impl Fn(Wide, Wide) -> [Wide; 2], x: Wide, y: Wide, step: f64) -> Wide {
-    let by_x = slopes(|x| f(x, y), x, step * x.to_f64());
-    let by_y = slopes(|y| f(x, y), y, step * y.to_f64());
+    let by_x = slopes_of_order_4(|x| f(x, y), x, step * x.to_f64());
+    let by_y = slopes_of_order_4(|y| f(x, y), y, step * y.to_f64());
     by_x[0] * by_y[1] - by_y[0] * by_x[1]
 }
 
@@ -110,7 +104,7 @@ fn non_degenerate(form: Form) -> Result<Test, Unexamined> {
         };
         let h = body.energy(y0, p, p_y);
         let by = |f: &dyn Fn(Wide) -> [Wide; 2], at: Wide, step: f64| {
-            [slope(|x| f(x)[0], at, step), slope(|x| f(x)[1], at, step)]
+            [slope_of_order_4(|x| f(x)[0], at, step), slope_of_order_4(|x| f(x)[1], at, step)]
         };
         let near = ((body.c * p * p - wide(2.0) * h) / (body.c * p * p)).to_f64().max(1e-24);
         let step = 1e-4 * near.min(1.0) * p.to_f64();
@@ -193,7 +187,7 @@ fn second_kind(form: Form) -> Result<Test, Unexamined> {
         let (motion, phase) = motion_and_phase(samples);
         // The derivative of (17) by T: both sides vanish at T = 0.
         let left = match form {
-            1 => slope(
+            1 => slope_of_order_4(
                 |t| {
                     let j = Jacobi::new(t + motion.psi0, motion.m, motion.mc);
                     jacobi_epsilon(t + motion.psi0, motion.m, motion.mc) - j.cn * j.dn / j.sn
@@ -201,7 +195,7 @@ fn second_kind(form: Form) -> Result<Test, Unexamined> {
                 phase,
                 1e-6,
             ),
-            _ => slope(|t| rest_of_i(&motion, t), phase, 1e-6),
+            _ => slope_of_order_4(|t| rest_of_i(&motion, t), phase, 1e-6),
         };
         let j = Jacobi::new(phase + motion.psi0, motion.m, motion.mc);
         let right = match form {
@@ -376,8 +370,8 @@ fn determinant_at_rest(form: Form) -> Result<Test, Unexamined> {
             })
         };
         let step = 1e-6 * p.to_f64();
-        let by_x = slopes(|x| end(x, Wide::ZERO), p, step);
-        let by_y = slopes(|y| end(p, y), Wide::ZERO, step);
+        let by_x = slopes_of_order_4(|x| end(x, Wide::ZERO), p, step);
+        let by_y = slopes_of_order_4(|y| end(p, y), Wide::ZERO, step);
         let left = by_x[0] * by_y[1] - by_y[0] * by_x[1];
         let (one, two) = (Wide::ONE, wide(2.0));
         let j = Jacobi::new(phase, motion.m, motion.mc);

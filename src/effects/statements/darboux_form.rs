@@ -3,7 +3,8 @@
 //! `φ` is the distance from the equator `y = π/2`. Functions of φ are Jacobi's of `αφ` for the parameter `k = (B − A)/(C − A)`, written out
 //! here; what they are compared with is the integral of `dφ = dy/√(C − Z)`, the metric (8), or an integrated motion.
 
-use super::bodies::{Body, Motion, Wide, by_differences, direct, exact, gauss_points, integral, slope, unit, wide};
+use super::bodies::{Body, Motion, by_differences, direct, exact, gauss_points, integral, unit};
+use super::differences::{Wide, slope_of_order_4, wide};
 use super::pendulum::states;
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
@@ -65,7 +66,7 @@ fn integral_of_x(form: Form) -> Result<Test, Unexamined> {
             2 => (one - x * x) * (k + (one - k) * x * x),
             _ => (one - x * x) * (one - k + k * x * x),
         };
-        let left = slope(|y| y.sin(), y, 1e-5) / ((c - a) * root).abs().sqrt();
+        let left = slope_of_order_4(|y| y.sin(), y, 1e-5) / ((c - a) * root).abs().sqrt();
         [left, one / (c - body.z_half(y)).sqrt(), Wide::ZERO]
     })
 }

@@ -3,7 +3,8 @@
 //! `R = exp(Φ1 A3) exp(Φ2 A2) exp(Φ3 A3)`; what is checked is compared with that product and with its derivative, never with a formula
 //! of the `geometry` room.
 
-use super::bodies::{Body, Wide, by_differences, exact, wide};
+use super::bodies::{Body, by_differences, exact};
+use super::differences::{Wide, wide};
 use super::euler_poinsot::{Matrix, bracket, chart_point, kinetic, momentum, times, vector};
 use super::statement::{Form, Shape, Statement, Unexamined};
 use crate::contract::claim::Test;

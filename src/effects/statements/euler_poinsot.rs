@@ -2,7 +2,8 @@
 //!
 //! `M = (H1, H2, H3)` is the momentum in the body, `Ω_i = u_i = H_i/I_i`; `A = 1/I1`, `B = 1/I2`, `C = 1/I3`.
 
-use super::bodies::{Body, Wide, by_differences, exact, identity, slope, unit, wide};
+use super::bodies::{Body, by_differences, exact, identity, unit};
+use super::differences::{Wide, slope_of_order_4, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::rotation_group::body_flow::BodyFlow;
@@ -45,7 +46,7 @@ pub fn momentum(x: &[Wide; 6]) -> [Wide; 3] {
 /// The canonical bracket `{F, G} = Σ F_q G_p − F_p G_q`, for which `F' = {F, H}`, by difference quotients.
 pub fn bracket(f: impl Fn(&[Wide; 6]) -> Wide, g: impl Fn(&[Wide; 6]) -> Wide, at: &[Wide; 6]) -> Wide {
     let by = |f: &dyn Fn(&[Wide; 6]) -> Wide, i: usize| {
-        slope(
+        slope_of_order_4(
             |x| {
                 let mut moved = *at;
                 moved[i] = x;

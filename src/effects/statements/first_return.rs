@@ -3,8 +3,9 @@
 //! At arc length, `2h = 1`. Derivatives are difference quotients in double-double of the closed forms as printed; the first return is compared
 //! with integrated motions.
 
-use super::bodies::{Body, Motion, Wide, direct, fine_slope, identity, slope, unit, wide};
+use super::bodies::{Body, Motion, direct, identity, unit};
 use super::darboux_form::{body_and_phi, half_width, z_at};
+use super::differences::{Wide, slope_of_order_4, slope_of_order_8, wide};
 use super::pendulum::states;
 use super::statement::{Cases, Form, Samples, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
@@ -54,13 +55,13 @@ fn symmetry_of_mu(form: Form) -> Result<Test, Unexamined> {
         let phi = phi.abs();
         let mu = |phi: Wide| Wide::ONE / z_at(&body, phi);
         let step = 1e-6 * half_width(&body).to_f64();
-        let first = slope(mu, phi, step) * half_width(&body) / mu(phi);
-        let at_zero = slope(|x| slope(mu, x, step), Wide::ZERO, step);
+        let first = slope_of_order_4(mu, phi, step) * half_width(&body) / mu(phi);
+        let at_zero = slope_of_order_4(|x| slope_of_order_4(mu, x, step), Wide::ZERO, step);
         let Body { a, b, c } = body;
         let bend = -(wide(2.0) * (b - a) * (c - a) / (a * a));
         // Relative: that both are the same function, not the same roundings.
         let same = |x: Wide, y: Wide| ((mu(x) - mu(y)) / mu(y)).abs() < wide(1e-24);
-        let even = same(-phi, phi) && slope(mu, Wide::ZERO, step).abs() < wide(1e-18);
+        let even = same(-phi, phi) && slope_of_order_4(mu, Wide::ZERO, step).abs() < wide(1e-18);
         let holds = match form {
             1 => even && first > Wide::ZERO,
             2 => same(half_width(&body) - phi, phi),
@@ -98,15 +99,15 @@ fn slope_of_period(form: Form) -> Result<Test, Unexamined> {
         let (body, p) = body_and_clairaut(samples);
         let h = step_of(&body, p);
         let [_, mc, speed] = constants(&body, p);
-        let by = |i: usize| fine_slope(|p| constants(&body, p)[i], p, h);
-        let k_slope = fine_slope(|m| complete_k(Wide::ONE - m), Wide::ONE - mc, 1e-3 * mc.to_f64());
+        let by = |i: usize| slope_of_order_8(|p| constants(&body, p)[i], p, h);
+        let k_slope = slope_of_order_8(|m| complete_k(Wide::ONE - m), Wide::ONE - mc, 1e-3 * mc.to_f64());
         let (first, second) = (by(0) * k_slope / speed, complete_k(mc) * by(2) / (speed * speed));
         let right = match form {
             1 => first + second,
             2 => first - second * speed,
             _ => first - second,
         };
-        [fine_slope(|p| quarter(&body, p), p, h), right, Wide::ZERO]
+        [slope_of_order_8(|p| quarter(&body, p), p, h), right, Wide::ZERO]
     })
 }
 
@@ -115,19 +116,19 @@ fn bend_of_period(form: Form) -> Result<Test, Unexamined> {
         let (body, p) = body_and_clairaut(samples);
         let h = step_of(&body, p);
         let ([_, mc, speed], m_at) = (constants(&body, p), |p: Wide| constants(&body, p));
-        let first = |i: usize| fine_slope(|p| m_at(p)[i], p, h);
-        let second = |i: usize| fine_slope(|p| fine_slope(|p| m_at(p)[i], p, h), p, h);
+        let first = |i: usize| slope_of_order_8(|p| m_at(p)[i], p, h);
+        let second = |i: usize| slope_of_order_8(|p| slope_of_order_8(|p| m_at(p)[i], p, h), p, h);
         let k_at = |m: Wide| complete_k(Wide::ONE - m);
         let step = 1e-3 * mc.to_f64();
-        let k1 = fine_slope(k_at, Wide::ONE - mc, step);
-        let k2 = fine_slope(|m| fine_slope(k_at, m, step), Wide::ONE - mc, step);
+        let k1 = slope_of_order_8(k_at, Wide::ONE - mc, step);
+        let k2 = slope_of_order_8(|m| slope_of_order_8(k_at, m, step), Wide::ONE - mc, step);
         let (m1, m2, s1, s2) = (first(0), second(0), first(2), second(2));
         let two = if form == 1 { Wide::ONE } else { wide(2.0) };
         let sign = if form == 2 { -Wide::ONE } else { Wide::ONE };
         let right = complete_k(mc) / (speed * speed * speed) * (two * s1 * s1 - speed * s2)
             + k1 / (speed * speed) * (speed * m2 - sign * wide(2.0) * m1 * s1)
             + k2 * m1 * m1 / speed;
-        [fine_slope(|p| fine_slope(|p| quarter(&body, p), p, h), p, h), right, Wide::ZERO]
+        [slope_of_order_8(|p| slope_of_order_8(|p| quarter(&body, p), p, h), p, h), right, Wide::ZERO]
     })
 }
 
@@ -137,8 +138,8 @@ fn derivatives_of_constants(form: Form) -> Result<Test, Unexamined> {
         let (Body { a, b, c }, one, two) = (body, Wide::ONE, wide(2.0));
         // Both are singular at p_θ = C^(−1/2) only.
         let h = 1e-3 * (p - one / c.sqrt()).to_f64();
-        let at = |i: usize| fine_slope(|p| constants(&body, p)[i], p, h);
-        let second = |i: usize| fine_slope(|p| fine_slope(|p| constants(&body, p)[i], p, h), p, h);
+        let at = |i: usize| slope_of_order_8(|p| constants(&body, p)[i], p, h);
+        let second = |i: usize| slope_of_order_8(|p| slope_of_order_8(|p| constants(&body, p)[i], p, h), p, h);
         let (x3, speed) = (c * p * p - one, constants(&body, p)[2]);
         let five = wide(if form == 1 { 3.0 } else { 5.0 });
         let plus = if form == 2 { -one } else { one };
@@ -196,8 +197,8 @@ fn falls_and_is_convex(form: Form, value: fn(&Body, Wide) -> Wide) -> Result<Tes
     for _ in 0..100 {
         let (body, p) = body_and_clairaut(&mut samples);
         let h = step_of(&body, p);
-        let first = |p: Wide| fine_slope(|p| value(&body, p), p, h);
-        let bend = fine_slope(first, p, h);
+        let first = |p: Wide| slope_of_order_8(|p| value(&body, p), p, h);
+        let bend = slope_of_order_8(first, p, h);
         let (falls, bends) = match form {
             1 => (first(p) > Wide::ZERO, bend > Wide::ZERO),
             2 => (first(p) < Wide::ZERO, bend < Wide::ZERO),

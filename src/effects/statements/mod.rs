@@ -5,6 +5,7 @@ pub mod conjugate_locus;
 pub mod conjugate_roots;
 pub mod conjugate_times;
 pub mod darboux_form;
+pub mod differences;
 pub mod euler_angles;
 pub mod euler_poinsot;
 pub mod first_return;

@@ -3,7 +3,8 @@
 //! The printed formulas are written out here, with the elliptic functions of the `numerics` room, and compared with integrated motions and
 //! with difference quotients; those of the `geometry` room, which are other ones, are not used.
 
-use super::bodies::{Body, Motion, Wide, by_differences, direct, exact, integral, slope, unit, wide};
+use super::bodies::{Body, Motion, by_differences, direct, exact, integral, unit};
+use super::differences::{Wide, slope_of_order_4, wide};
 use super::pendulum::{states, times_of};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
@@ -42,7 +43,7 @@ fn falling_xi(form: Form) -> Result<Test, Unexamined> {
             3 => -square,
             _ => -square.sqrt(),
         };
-        [slope(xi, y, 1e-5) * rate_of_y(&motion, y), right, Wide::ZERO]
+        [slope_of_order_4(xi, y, 1e-5) * rate_of_y(&motion, y), right, Wide::ZERO]
     })
 }
 
@@ -50,7 +51,7 @@ fn polynomial_of_xi(form: Form) -> Result<Test, Unexamined> {
     by_differences(502, |samples| {
         let motion = any_motion(samples);
         let y = motion.y0();
-        let rate = slope(|y| y.cos() * y.cos(), y, 1e-5) * rate_of_y(&motion, y);
+        let rate = slope_of_order_4(|y| y.cos() * y.cos(), y, 1e-5) * rate_of_y(&motion, y);
         [rate * rate, polynomial(&motion, motion.cosine0 * motion.cosine0, form), Wide::ZERO]
     })
 }
@@ -126,7 +127,7 @@ fn equation_of_eta(form: Form, rotating: bool) -> Result<Test, Unexamined> {
         let (now, one) = (value(y), Wide::ONE);
         let root = ((one - now * now) * (mc + m * now * now)).abs().sqrt();
         let speed = if form == 2 { motion.speed * motion.speed } else { motion.speed };
-        [slope(value, y, 1e-6) * rate_of_y(&motion, y), -(speed * root), Wide::ZERO]
+        [slope_of_order_4(value, y, 1e-6) * rate_of_y(&motion, y), -(speed * root), Wide::ZERO]
     })
 }
 

@@ -3,7 +3,8 @@
 //! Motions are integrated by the flow (9) of the `geometry` room, which knows no closed form; velocities and linearisations are difference
 //! quotients of the Hamiltonian (7).
 
-use super::bodies::{Body, Motion, Wide, by_differences, direct, exact, slope, unit, wide};
+use super::bodies::{Body, Motion, by_differences, direct, exact, unit};
+use super::differences::{Wide, slope_of_order_4, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::serret_andoyer::flow::trajectory;
@@ -40,9 +41,9 @@ fn equations_9(form: Form) -> Result<Test, Unexamined> {
             if form == 3 { -swing } else { swing },
         ];
         let left = [
-            slope(|x| body.energy(y, x, p_y), p_x, 1e-5),
-            slope(|x| body.energy(y, p_x, x), p_y, 1e-5),
-            -slope(|x| body.energy(x, p_x, p_y), y, 1e-5),
+            slope_of_order_4(|x| body.energy(y, x, p_y), p_x, 1e-5),
+            slope_of_order_4(|x| body.energy(y, p_x, x), p_y, 1e-5),
+            -slope_of_order_4(|x| body.energy(x, p_x, p_y), y, 1e-5),
         ];
         let i = (samples.even(0.0, 3.0) as usize).min(2);
         [left[i], right[i], wide(1e-6) * body.energy(y, p_x, p_y)]
@@ -95,9 +96,9 @@ fn equilibria(form: Form) -> Result<Test, Unexamined> {
         };
         let p = if form == 2 { p_y } else { Wide::ZERO };
         let scale = body.c * p_x * p_x * wide(1e-14) * (body.b - body.a) / body.c;
-        let y_rate = slope(|x| body.energy(y, p_x, x), p, 1e-6);
-        let p_rate = slope(|x| body.energy(x, p_x, p), y, 1e-6);
-        let beside = slope(|x| body.energy(x, p_x, p), y + wide(0.3), 1e-6).abs() > scale;
+        let y_rate = slope_of_order_4(|x| body.energy(y, p_x, x), p, 1e-6);
+        let p_rate = slope_of_order_4(|x| body.energy(x, p_x, p), y, 1e-6);
+        let beside = slope_of_order_4(|x| body.energy(x, p_x, p), y + wide(0.3), 1e-6).abs() > scale;
         let rests = y_rate.abs() < scale && p_rate.abs() < scale;
         cases.see(rests && beside, || format!("y = {}", y.to_f64()));
     }
@@ -108,7 +109,7 @@ fn natural_system(form: Form) -> Result<Test, Unexamined> {
     by_differences(405, |samples| {
         let (body, y, p_x, p_y) = state(samples);
         let h = body.energy(y, p_x, p_y);
-        let rate = slope(|x| body.energy(y, p_x, x), p_y, 1e-5);
+        let rate = slope_of_order_4(|x| body.energy(y, p_x, x), p_y, 1e-5);
         let (half_z, two) = (body.z_half(y), wide(2.0));
         let v = match form {
             1 => (body.c + half_z) * (p_x * p_x * half_z - two * h),

@@ -2,7 +2,8 @@
 //!
 //! Attitudes are integrated as unit quaternions by the flow of the `geometry` room, which knows no angle and no quadrature.
 
-use super::bodies::{Body, Wide, direct, gauss_points, slope, wide};
+use super::bodies::{Body, direct, gauss_points};
+use super::differences::{Wide, slope_of_order_4, wide};
 use super::euler_angles::momentum_in_space;
 use super::euler_poinsot::{chart_point, kinetic, momentum, period, vector};
 use super::statement::{Cases, Form, Samples, Statement, Unexamined, Worst, unexamined};
@@ -20,7 +21,7 @@ fn gradient(f: impl Fn(&[Wide; 6]) -> Wide, at: &[Wide; 6]) -> [Wide; 6] {
             moved[i] = x;
             f(&moved)
         };
-        slope(moved, at[i], 1e-5)
+        slope_of_order_4(moved, at[i], 1e-5)
     };
     let gradient: [Wide; 6] = std::array::from_fn(along);
     let length = gradient.iter().fold(Wide::ZERO, |sum, x| sum + *x * *x).sqrt();

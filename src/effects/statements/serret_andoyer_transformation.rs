@@ -4,7 +4,8 @@
 //! `R = exp(κA3) exp(IA1) exp(gA3) exp(JA1) exp(lA3)` and the momentum in space `G exp(κA3) exp(IA1) e3`; the article's `k` counts from the
 //! other node, `κ = k + π`.
 
-use super::bodies::{Body, Wide, by_differences, direct, exact, slope, wide};
+use super::bodies::{Body, by_differences, direct, exact};
+use super::differences::{Wide, slope_of_order_4, wide};
 use super::euler_angles::about_3;
 use super::euler_poinsot::{Matrix, bracket, chart_point, euler, kinetic, momentum, times, vector};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined};
@@ -154,7 +155,7 @@ fn symplectic(form: Form) -> Result<Test, Unexamined> {
                 let (sine, cosine) = change.sin_cos();
                 if component < 3 { wide(2.0) * sine / (Wide::ONE + cosine) } else { change }
             };
-            slope(along, x[index], 1e-6)
+            slope_of_order_4(along, x[index], 1e-6)
         };
         let lagrange = (0..3).fold(Wide::ZERO, |sum, a| sum + by(i, a) * by(j, a + 3) - by(i, a + 3) * by(j, a));
         let expected = match (i, j) {
@@ -212,8 +213,8 @@ fn metric_8(form: Form) -> Result<Test, Unexamined> {
     by_differences(308, |samples| {
         let (body, [_, _, y, ..], p) = (Body::any(samples), variables(samples), vector(samples));
         // The velocity of the momenta, by difference quotients of (7); its length must be twice the energy.
-        let dx = slope(|x| body.energy(y, x, p[1]), p[0], 1e-5);
-        let dy = slope(|x| body.energy(y, p[0], x), p[1], 1e-5);
+        let dx = slope_of_order_4(|x| body.energy(y, x, p[1]), p[0], 1e-5);
+        let dy = slope_of_order_4(|x| body.energy(y, p[0], x), p[1], 1e-5);
         let (sine, cosine) = y.sin_cos();
         let z = wide(2.0) * (body.a * sine * sine + body.b * cosine * cosine);
         let rest = wide(2.0) * body.c - z;

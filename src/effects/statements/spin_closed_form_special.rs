@@ -2,8 +2,9 @@
 //!
 //! Elementary where m = 1 or m = 0; each line against its differential equations by difference quotients, or against integration.
 
+use super::differences::{Wide, slopes_of_order_2, wide};
 use super::spin_closed_form_regimes::random_starts;
-use super::spin_points::{POINTS, QUOTIENT, Wide, reason, slopes, wide};
+use super::spin_points::{POINTS, QUOTIENT, reason};
 use super::spin_trajectories::travelled;
 use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
@@ -58,7 +59,7 @@ const SEPARATRIX_BETA: Statement = Statement {
             let (s, c) = at.hyperbolic(at.t);
             let rate = at.w * if form == 1 { c * c } else { c };
             let cosine = if form == 2 { s } else { c };
-            let [sine_rate] = slopes(|t| [at.hyperbolic(t).0], at.t);
+            let [sine_rate] = slopes_of_order_2(|t| [at.hyperbolic(t).0], at.t);
             // b = w when p_θ = 2√(k² − 1).
             worst.see(((rate * rate - stiffness * (Wide::ONE - s * s)) / stiffness).to_f64());
             worst.see(((sine_rate - cosine * rate) / at.w).to_f64());
@@ -86,7 +87,7 @@ const SEPARATRIX_VARIATION: Statement = Statement {
                     (if form == 1 { -(c * u) } else { c * u }, if form == 2 { -(s * c * u) } else { s * c * u });
                 [(linear + s / c) / (four_k * at.w), ((Wide::ONE + c * c) / c - mixed) / four_k]
             };
-            let ([delta, delta_rate], rates) = (values(at.t), slopes(values, at.t));
+            let ([delta, delta_rate], rates) = (values(at.t), slopes_of_order_2(values, at.t));
             let (s, c) = at.hyperbolic(at.t);
             let size = at.w * (delta.abs() * at.w + delta_rate.abs());
             worst.see(((rates[0] - delta_rate) * at.w / size).to_f64());
@@ -115,7 +116,7 @@ const SEPARATRIX_ANGLE: Statement = Statement {
             };
             let (s, c) = at.hyperbolic(at.t);
             let expected = at.k / (c * c + (at.k * s).squared());
-            worst.see(((slopes(value, at.t)[0] - expected) / expected).to_f64());
+            worst.see(((slopes_of_order_2(value, at.t)[0] - expected) / expected).to_f64());
         }
         Ok(worst.at_most(QUOTIENT, reason(QUOTIENT)))
     },

@@ -3,7 +3,8 @@
 //! Curvature by Brioschi's formula from the printed coefficients in (φ, θ), that is without isothermal coordinates. Conjugate points and
 //! returns to the equator by integration of the lift.
 
-use super::spin_points::{ChartPoint, QUOTIENT, Wide, anisotropy, chart_points, gap, reason, slope, slopes, wide};
+use super::differences::{Wide, slope_of_order_2, slopes_of_order_2, wide};
+use super::spin_points::{ChartPoint, QUOTIENT, anisotropy, chart_points, gap, reason};
 use super::spin_trajectories::travelled;
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
@@ -48,8 +49,8 @@ const ISOTHERMAL: Statement = Statement {
     examine: |form| {
         let mut worst = Worst::default();
         for point in chart_points(451) {
-            let along_phi = slopes(|phi| plane(&ChartPoint { phi, ..point }), point.phi);
-            let along_theta = slopes(|theta| plane(&ChartPoint { theta, ..point }), point.theta);
+            let along_phi = slopes_of_order_2(|phi| plane(&ChartPoint { phi, ..point }), point.phi);
+            let along_theta = slopes_of_order_2(|theta| plane(&ChartPoint { theta, ..point }), point.theta);
             let lambda = lambda(point.k, plane(&point), form);
             let product = |a: [Wide; 2], b: [Wide; 2]| lambda * (a[0] * b[0] + a[1] * b[1]);
             let [e, f, g] = coefficients(&point);
@@ -98,8 +99,8 @@ fn determinant(m: [[Wide; 3]; 3]) -> Wide {
 fn brioschi(point: &ChartPoint) -> Wide {
     let metric = |a: Wide, b: Wide| coefficients(&ChartPoint { phi: point.phi + a, theta: point.theta + b, ..*point });
     let [e, f, g] = metric(Wide::ZERO, Wide::ZERO);
-    let [eu, fu, gu] = slopes(|a| metric(a, Wide::ZERO), Wide::ZERO);
-    let [ev, fv, gv] = slopes(|b| metric(Wide::ZERO, b), Wide::ZERO);
+    let [eu, fu, gu] = slopes_of_order_2(|a| metric(a, Wide::ZERO), Wide::ZERO);
+    let [ev, fv, gv] = slopes_of_order_2(|b| metric(Wide::ZERO, b), Wide::ZERO);
     let [uu, vv, uv] = second_slopes(metric);
     let half = wide(0.5);
     let corner = uv[1] - half * vv[0] - half * uu[2];
@@ -205,7 +206,7 @@ const SUPREMUM: Statement = Statement {
             let k2 = k * k;
             let top = -Wide::ONE - if form == 1 { k2 } else { Wide::ONE / k2 };
             worst.see(gap(printed_curvature(k, [Wide::ZERO; 2], 0), top));
-            worst.see(slope(|x| printed_curvature(k, [x, Wide::ZERO], 0), Wide::ZERO).to_f64());
+            worst.see(slope_of_order_2(|x| printed_curvature(k, [x, Wide::ZERO], 0), Wide::ZERO).to_f64());
             let (st, ct) = theta.sin_cos();
             let scaled = |r2: f64| {
                 let r2 = wide(r2);

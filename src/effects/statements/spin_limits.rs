@@ -3,7 +3,7 @@
 //! On the meridian β = 0, λ = t, and the phase of the closed form is elementary: `Θ = t − arg(w cos wt + i sin wt)` for k > 1, `w² = 1 − 1/k²`, and
 //! `Θ = t − arg(l cosh lt + i sinh lt)` for k < 1, `l² = 1/k² − 1`; the cusp is at `r = (cos t1, sin t1, 0)`.
 
-use super::spin_points::{Wide, wide};
+use super::differences::{Wide, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::spin::conjugate::first_conjugate_point;

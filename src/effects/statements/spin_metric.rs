@@ -3,9 +3,8 @@
 //! The routes: the pull-back of `(dr1² + k² dr3²)/r2²` by difference quotients of `r(θ, φ)`; the Legendre transform of the cost (28) by its
 //! vector fields `X3 = r2 ∂1 − r1 ∂2`, `X1 = r3 ∂2 − r2 ∂3`; the rank of these fields.
 
-use super::spin_points::{
-    ALGEBRA, ChartPoint, QUOTIENT, Wide, at_chart_points, chart_points, cross, dot, gap, reason, slopes, wide,
-};
+use super::differences::{Wide, slopes_of_order_2, wide};
+use super::spin_points::{ALGEBRA, ChartPoint, QUOTIENT, at_chart_points, chart_points, cross, dot, gap, reason};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
 use crate::numerics::real::Real;
@@ -49,8 +48,8 @@ const METRIC: Statement = Statement {
     examine: |form| {
         let mut worst = Worst::default();
         for point in chart_points(411) {
-            let along_phi = slopes(|phi| ChartPoint { phi, ..point }.position(), point.phi);
-            let along_theta = slopes(|theta| ChartPoint { theta, ..point }.position(), point.theta);
+            let along_phi = slopes_of_order_2(|phi| ChartPoint { phi, ..point }.position(), point.phi);
+            let along_theta = slopes_of_order_2(|theta| ChartPoint { theta, ..point }.position(), point.theta);
             let r2 = point.position()[1];
             let product = |a: [Wide; 3], b: [Wide; 3]| (a[0] * b[0] + point.k * point.k * a[2] * b[2]) / (r2 * r2);
             let pulled = [
@@ -102,8 +101,8 @@ const HAMILTONIAN: Statement = Statement {
     ],
     examine: |form| {
         Ok(at_chart_points(412, QUOTIENT, |point| {
-            let along_phi = slopes(|phi| ChartPoint { phi, ..*point }.position(), point.phi);
-            let along_theta = slopes(|theta| ChartPoint { theta, ..*point }.position(), point.theta);
+            let along_phi = slopes_of_order_2(|phi| ChartPoint { phi, ..*point }.position(), point.phi);
+            let along_theta = slopes_of_order_2(|theta| ChartPoint { theta, ..*point }.position(), point.theta);
             let r2 = point.position()[1];
             let product = |a: [Wide; 3], b: [Wide; 3]| (a[0] * b[0] + point.k * point.k * a[2] * b[2]) / (r2 * r2);
             let (e, f, g) =

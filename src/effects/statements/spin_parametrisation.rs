@@ -4,7 +4,8 @@
 //! `H2 = −√(I1 I3) α'` with the Casimir; Φ1 against (32) by difference quotients of the third kind; Φ2 and Φ3 against (4), α' by difference quotients.
 //! All in double-double, m and 1 − m down to 1e-8, I1/I3 from 1 ± 1e-6 to 100 and its inverse.
 
-use super::spin_points::{POINTS, QUOTIENT, Wide, reason, slope, wide};
+use super::differences::{Wide, slope_of_order_2, wide};
+use super::spin_points::{POINTS, QUOTIENT, reason};
 use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
 use crate::numerics::elliptic::incomplete::{incomplete_f, incomplete_pi};
@@ -107,7 +108,7 @@ impl Case {
             let (s, c) = self.direction(u);
             (s * cosine - c * sine).atan2(c * cosine + s * sine)
         };
-        self.rate * slope(turned, self.u)
+        self.rate * slope_of_order_2(turned, self.u)
     }
 
     /// The momentum.
@@ -148,7 +149,7 @@ fn alpha(regime: Regime, form: Form) -> Result<Test, Unexamined> {
             if form == 5 { -printed } else { printed }
         };
         // x is sin α, or cos α in the third case; x'² = (1 − x²) α'².
-        let (x, x_rate) = (value(u), rate * slope(value, u));
+        let (x, x_rate) = (value(u), rate * slope_of_order_2(value, u));
         let square = x * x;
         let (sine2, cosine2) =
             if regime == OscillatingAbove { (Wide::ONE - square, square) } else { (square, Wide::ONE - square) };
@@ -183,7 +184,7 @@ fn first_angle(regime: Regime, form: Form) -> Result<Test, Unexamined> {
         let weight = if form == 1 { -weight } else { weight };
         let third_kind = |u: Wide| incomplete_pi(case.jacobi(u).am, n, Wide::ONE - n, m, mc);
         let front = casimir.sqrt() / if form == 2 { i1 } else { i3 };
-        let printed = front * (Wide::ONE + weight * rate * slope(third_kind, u));
+        let printed = front * (Wide::ONE + weight * rate * slope_of_order_2(third_kind, u));
         let [h1, h2, _] = case.momentum();
         let rate = casimir.sqrt() * h1 * h1 / (i1 * (h1 * h1 + h2 * h2));
         worst.see(((printed - rate) / front).to_f64());
@@ -242,8 +243,8 @@ fn initial_phase(form: Form) -> Result<Test, Unexamined> {
         for case in Case::all(485, regime) {
             // Any start: the direction and its rate at the random argument, turned back in time for the starts that the condition excludes.
             let (sine, cosine) = case.direction(case.u);
-            let sine_rate = slope(|u| case.direction(u).0, case.u);
-            let cosine_rate = slope(|u| case.direction(u).1, case.u);
+            let sine_rate = slope_of_order_2(|u| case.direction(u).0, case.u);
+            let cosine_rate = slope_of_order_2(|u| case.direction(u).1, case.u);
             let (value, value_rate) =
                 if regime == OscillatingAbove { (cosine, cosine_rate) } else { (sine, sine_rate) };
             // The printed formulas increase in the principal range, the third decreases.
@@ -269,7 +270,7 @@ fn initial_phase(form: Form) -> Result<Test, Unexamined> {
                 if regime == OscillatingAbove { cosine } else { sine }
             };
             worst.see((at_start(psi0) - value).to_f64());
-            worst.see((slope(at_start, psi0) - sign * value_rate).to_f64());
+            worst.see((slope_of_order_2(at_start, psi0) - sign * value_rate).to_f64());
         }
     }
     Ok(worst.at_most(1e-12, "an inverse function at its turning points, in double-double"))

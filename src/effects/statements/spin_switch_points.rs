@@ -4,9 +4,9 @@
 //! solutions `w = (2n − 1)/(2n + 1)`, `w = (n − 1)/n`, that is `k = (2n + 1)/√(8n)` and `k = n/√(2n − 1)`. For p_θ > 0 the locus crosses the equator where
 //! δβ = 0 on the n-th return: there the conjugate time has a vertical tangent.
 
+use super::differences::{Wide, wide};
 use super::spin_closed_form_regimes::Closed;
 use super::spin_limits::{meridian_phase, meridian_time};
-use super::spin_points::{Wide, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::spin::switch_points::{Passage, switch_points};

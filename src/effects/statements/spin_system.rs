@@ -3,7 +3,8 @@
 //! The spins are checked on the algebra of Pauli strings itself: `i[P, Q] = −2 Im(phase) S` where `P Q = phase·S`. Units: time in
 //! `1/(π J12)`.
 
-use super::spin_points::{ALGEBRA, POINTS, QUOTIENT, Wide, anisotropy, dot, gap, reason, slope, wide};
+use super::differences::{Wide, slope_of_order_2, wide};
+use super::spin_points::{ALGEBRA, POINTS, QUOTIENT, anisotropy, dot, gap, reason};
 use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
 use crate::numerics::real::Real;
@@ -120,7 +121,7 @@ impl SpinState {
     /// The derivative along the flow of a function of the state.
     fn derivative(&self, f: impl Fn([Wide; 4]) -> Wide) -> Wide {
         let rate = self.rate();
-        slope(|t| f(std::array::from_fn(|i| self.x[i] + t * rate[i])), Wide::ZERO)
+        slope_of_order_2(|t| f(std::array::from_fn(|i| self.x[i] + t * rate[i])), Wide::ZERO)
     }
 }
 

@@ -3,10 +3,9 @@
 //! What the figures show of it (ranges of the types, the printed times) is claimed by the experiments of the figures; here are the formulas
 //! behind: the rate of θ, why θ is monotone for k = 1 and turns at the equator for every other k, and where the printed angles come from.
 
+use super::differences::{Wide, slope_of_quadratic, wide};
 use super::spin_metric::printed_hamiltonian;
-use super::spin_points::{
-    ALGEBRA, ChartPoint, QUOTIENT, Wide, anisotropy, at_chart_points, chart_points, cross, slope_of_quadratic, wide,
-};
+use super::spin_points::{ALGEBRA, ChartPoint, QUOTIENT, anisotropy, at_chart_points, chart_points, cross};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::spin::lift::{SpinLift, equator_crossings};

@@ -1,6 +1,7 @@
 //! Statements of section 2.2: the sub-Riemannian problem as a limit, and its invariant.
 
-use super::bodies::{Body, Wide, direct, exact, identity, wide};
+use super::bodies::{Body, direct, exact, identity};
+use super::differences::{Wide, wide};
 use super::euler_poinsot::{kinetic, vector};
 use super::statement::{Cases, Form, Samples, Statement, Unexamined};
 use crate::contract::claim::Test;

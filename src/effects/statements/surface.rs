@@ -5,7 +5,7 @@
 //! larger `b` it grows about the equator. Geodesics are integrated with the variation by `p_θ` by a Runge-Kutta pair that shares nothing with
 //! the closed forms. The substitution `φ = φ+ sin s` makes period and first return means over a turn.
 
-use super::bodies::{Wide, wide};
+use super::differences::{Wide, wide};
 use super::statement::{Samples, Unexamined, unexamined};
 use crate::numerics::real::Real;
 use crate::numerics::runge_kutta::dop853::Dop853;

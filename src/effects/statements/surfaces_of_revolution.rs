@@ -2,7 +2,8 @@
 //!
 //! Most are checked on the surfaces of [`super::surface`], tame ones and others.
 
-use super::bodies::{Wide, by_differences, direct, identity, integral, slope, wide};
+use super::bodies::{by_differences, direct, identity, integral};
+use super::differences::{Wide, slope_of_order_4, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use super::surface::Surface;
 use crate::contract::claim::Test;
@@ -24,8 +25,8 @@ fn flow_21(form: Form) -> Result<Test, Unexamined> {
         let x = point(samples);
         let [a, b, phi, _, p_theta] = x;
         let mu = |phi: Wide| Wide::ONE / (Wide::ONE + a * phi + b * phi * phi);
-        let left = -slope(|phi| energy([a, b, phi, x[3], p_theta]), phi, 1e-5);
-        let printed = slope(mu, phi, 1e-5) / (wide(2.0) * mu(phi) * mu(phi));
+        let left = -slope_of_order_4(|phi| energy([a, b, phi, x[3], p_theta]), phi, 1e-5);
+        let printed = slope_of_order_4(mu, phi, 1e-5) / (wide(2.0) * mu(phi) * mu(phi));
         let right = match form {
             0 => printed,
             2 => -(printed * p_theta * p_theta),
@@ -43,8 +44,8 @@ fn slope_22(form: Form) -> Result<Test, Unexamined> {
         let p = wide(samples.even(0.05, 0.95)) * mu.sqrt();
         // Arc length: p_φ² = 1 − p_θ²/μ; dθ/dφ from the derivatives of H.
         let p_phi = (Wide::ONE - p * p / mu).sqrt();
-        let theta = slope(|p| energy([a, b, phi, p_phi, p]), p, 1e-6);
-        let along = slope(|x| energy([a, b, phi, x, p]), p_phi, 1e-6);
+        let theta = slope_of_order_4(|p| energy([a, b, phi, p_phi, p]), p, 1e-6);
+        let along = slope_of_order_4(|x| energy([a, b, phi, x, p]), p_phi, 1e-6);
         let right = match form {
             1 => p / (mu.sqrt() * (mu + p * p).sqrt()),
             2 => p / (mu - p * p).sqrt(),
@@ -85,7 +86,7 @@ fn parallels(form: Form) -> Result<Test, Unexamined> {
             (_, 0) => critical,
             _ => critical + wide(samples.sign() * samples.even(0.01, 1.0)),
         };
-        let rate = -slope(|phi| energy([a, b, phi, Wide::ZERO, Wide::ONE]), phi, 1e-5);
+        let rate = -slope_of_order_4(|phi| energy([a, b, phi, Wide::ZERO, Wide::ONE]), phi, 1e-5);
         let rests = rate.abs() < wide(1e-18);
         let expected = if form == 2 { case % 2 == 1 } else { case % 2 == 0 };
         cases.see(rests == expected, || format!("φ = {}", phi.to_f64()));
@@ -128,13 +129,14 @@ fn gauss_curvature(form: Form) -> Result<Test, Unexamined> {
         let (s, c) = u.sin_cos();
         let square = big * big * s * s + small * small * c * c;
         let truth = if torus { c / (small * radius(u)) } else { small * small / (square * square) };
-        let first = |u: Wide| slope(radius, u, 1e-4) / stretch(u);
-        let second = slope(first, u, 1e-4) / stretch(u);
+        let first = |u: Wide| slope_of_order_4(radius, u, 1e-4) / stretch(u);
+        let second = slope_of_order_4(first, u, 1e-4) / stretch(u);
         let value = match form {
             1 => second / radius(u),
             2 => -second,
             3 => {
-                -(slope(|u| slope(|u| radius(u) * radius(u), u, 1e-4) / stretch(u), u, 1e-4) / stretch(u))
+                -(slope_of_order_4(|u| slope_of_order_4(|u| radius(u) * radius(u), u, 1e-4) / stretch(u), u, 1e-4)
+                    / stretch(u))
                     / (radius(u) * radius(u))
             }
             _ => -(second / radius(u)),
@@ -152,13 +154,13 @@ fn euler_field(form: Form) -> Result<Test, Unexamined> {
             match i {
                 0 => p[0],
                 1 => p[1] * (Wide::ONE + x[0] * x[2] + x[1] * x[2] * x[2]),
-                _ => -slope(|phi| energy([x[0], x[1], phi, p[0], p[1]]), x[2], 1e-5),
+                _ => -slope_of_order_4(|phi| energy([x[0], x[1], phi, p[0], p[1]]), x[2], 1e-5),
             }
         };
         let i = (samples.even(0.0, 3.0) as usize).min(2);
         let here = field(Wide::ONE, i);
         let along = if i == 2 { here } else { Wide::ZERO };
-        let commutator = along - slope(|scale| field(scale, i), Wide::ONE, 1e-5);
+        let commutator = along - slope_of_order_4(|scale| field(scale, i), Wide::ONE, 1e-5);
         let right = match form {
             1 => here,
             2 => -(wide(2.0) * here),
@@ -202,7 +204,7 @@ fn tame_flow(form: Form) -> Result<Test, Unexamined> {
     for _ in 0..100 {
         let surface = if form == 1 { Surface::hard(&mut samples) } else { Surface::tame(&mut samples) };
         let p = wide(surface.p);
-        let falls = slope(|p| surface.returns(p)[1], p, 1e-5 * surface.p) < Wide::ZERO;
+        let falls = slope_of_order_4(|p| surface.returns(p)[1], p, 1e-5 * surface.p) < Wide::ZERO;
         let part = if form == 2 { 0.75 } else { 0.5 };
         let none = surface.no_conjugate_point(part * surface.period())?;
         cases.see(falls != (form == 1) && none, || format!("{surface:?}"));
@@ -230,7 +232,7 @@ fn slopes_of_both(form: Form) -> Result<Test, Unexamined> {
     identity(912, 100, 1e-11, "means of 24 values, difference quotients", |samples| {
         let surface = if samples.sign() > 0.0 { Surface::tame(samples) } else { Surface::any(samples) };
         let p = wide(surface.p);
-        let by = |i: usize| slope(|p| surface.returns(p)[i], p, 1e-4 * surface.p);
+        let by = |i: usize| slope_of_order_4(|p| surface.returns(p)[i], p, 1e-4 * surface.p);
         let right = match form {
             1 => by(0) / p,
             2 => by(0) * p / wide(2.0),
@@ -288,7 +290,7 @@ fn equation_24(form: Form) -> Result<Test, Unexamined> {
         };
         let sine = phi / top;
         let tail = integral(along, sine / ((Wide::ONE - sine) * (Wide::ONE + sine)).sqrt(), Wide::ZERO, 16);
-        let slope_of_return = slope(|p| surface.returns(p)[1], p, 1e-4 * surface.p);
+        let slope_of_return = slope_of_order_4(|p| surface.returns(p)[1], p, 1e-4 * surface.p);
         let left = match form {
             1 => slope_of_return - tail,
             3 => slope_of_return / wide(2.0) + tail,
@@ -355,10 +357,10 @@ fn rest_of_21(form: Form) -> Result<Test, Unexamined> {
         let [a, b, phi, p_phi, p_theta] = x;
         let w = Wide::ONE + a * phi + b * phi * phi;
         if samples.sign() > 0.0 {
-            let left = slope(|p| energy([a, b, phi, p, p_theta]), p_phi, 1e-5);
+            let left = slope_of_order_4(|p| energy([a, b, phi, p, p_theta]), p_phi, 1e-5);
             [left, if form == 1 { -p_phi } else { p_phi }, Wide::ONE]
         } else {
-            let left = slope(|p| energy([a, b, phi, p_phi, p]), p_theta, 1e-5);
+            let left = slope_of_order_4(|p| energy([a, b, phi, p_phi, p]), p_theta, 1e-5);
             let right = match form {
                 2 => p_theta / w,
                 3 => p_theta * p_theta * w,
@@ -376,7 +378,7 @@ fn pairing(form: Form) -> Result<Test, Unexamined> {
         let p = part / wide(3.2) / w.sqrt();
         // All p with H = 1/2 over one point: δp is the derivative along them.
         let p_phi = |p: Wide| (Wide::ONE - p * p * w).sqrt();
-        let change = slope(p_phi, p, 1e-6 * p.to_f64());
+        let change = slope_of_order_4(p_phi, p, 1e-6 * p.to_f64());
         let left = match form {
             1 => p_phi(p) * change + p,
             2 => p_phi(p) * change - p * w,
