@@ -1,18 +1,15 @@
-//! What the checks of sections 2 and 3 share: long numbers, difference quotients, quadrature, random bodies and motions.
+//! What the checks of sections 2 and 3 share: comparisons of two sides, quadrature, random bodies and motions.
 //!
 //! Identities are compared in double-double, so that a gap between two moments of inertia of a thousandth costs nothing. Motions are
 //! posed by the article's constants, written out here and not taken from the `geometry` room: `ξ1 = (2h − A p_x²)/((B − A) p_x²)`,
 //! `ξ3 = (C − A)/(B − A)`, and `m`, `m'`, `M` from three energies that are differences of inputs.
 
+use super::differences::{Wide, wide};
 use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
-use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::elliptic::incomplete::incomplete_f_sc;
 use crate::numerics::elliptic::mean::complete_k;
 use crate::numerics::real::Real;
-
-/// The numbers of the identities: 32 digits.
-pub type Wide = DoubleDouble;
 
 /// What an identity in double-double may miss: 32 digits less those that thousandth gaps between the moments of inertia cost.
 pub const EXACT: f64 = 1e-20;
@@ -20,38 +17,17 @@ pub const EXACT: f64 = 1e-20;
 /// What a difference quotient may miss: its error is the fourth power of its step, 1e-5 of the argument or less, times a fifth derivative.
 pub const BY_DIFFERENCES: f64 = 1e-12;
 
-/// A number of 32 digits from one of 16.
-pub fn wide(x: f64) -> Wide {
-    Wide::from_f64(x)
-}
-
-/// The derivative by the central difference of fourth order.
-pub fn slope(f: impl Fn(Wide) -> Wide, at: Wide, step: f64) -> Wide {
-    let h = wide(step);
-    let near = f(at + h) - f(at - h);
-    let far = f(at + h + h) - f(at - h - h);
-    (wide(8.0) * near - far) / (wide(12.0) * h)
-}
-
-/// The derivative by the central difference of eighth order: for second derivatives and beside singularities.
-pub fn fine_slope(f: impl Fn(Wide) -> Wide, at: Wide, step: f64) -> Wide {
-    let h = wide(step);
-    let difference = |count: f64| f(at + wide(count) * h) - f(at - wide(count) * h);
-    let sum = wide(672.0) * difference(1.0) - wide(168.0) * difference(2.0) + wide(32.0) * difference(3.0)
-        - wide(3.0) * difference(4.0);
-    sum / (wide(840.0) * h)
-}
+/// Node and weight of the rule of Gauss and Legendre with ten points, each with what is left when it is rounded.
+const NODES: [(f64, f64, f64, f64); 5] = [
+    (0.14887433898163122, -4.8210770585131585e-18, 0.29552422471475287, 1.4926748620194873e-19),
+    (0.4333953941292472, -2.2600214699526867e-17, 0.26926671930999635, 5.461783364364092e-18),
+    (0.6794095682990244, -2.9354889953805544e-17, 0.21908636251598204, 2.4077873034994635e-18),
+    (0.8650633666889845, -2.561358899462181e-17, 0.1494513491505806, 6.257139381592662e-18),
+    (0.9739065285171717, -2.3352971736535508e-17, 0.06667134430868814, -3.981897278437097e-19),
+];
 
 /// The integral over `(from, to)` by the rule of Gauss and Legendre with ten points on each of `pieces` equal parts.
 pub fn integral(f: impl Fn(Wide) -> Wide, from: Wide, to: Wide, pieces: usize) -> Wide {
-    /// Node and weight, each with what is left when it is rounded.
-    const NODES: [(f64, f64, f64, f64); 5] = [
-        (0.14887433898163122, -4.8210770585131585e-18, 0.29552422471475287, 1.4926748620194873e-19),
-        (0.4333953941292472, -2.2600214699526867e-17, 0.26926671930999635, 5.461783364364092e-18),
-        (0.6794095682990244, -2.9354889953805544e-17, 0.21908636251598204, 2.4077873034994635e-18),
-        (0.8650633666889845, -2.561358899462181e-17, 0.1494513491505806, 6.257139381592662e-18),
-        (0.9739065285171717, -2.3352971736535508e-17, 0.06667134430868814, -3.981897278437097e-19),
-    ];
     let half = (to - from) / wide(2.0 * pieces as f64);
     let mut sum = Wide::ZERO;
     for piece in 0..pieces {
@@ -62,6 +38,17 @@ pub fn integral(f: impl Fn(Wide) -> Wide, from: Wide, to: Wide, pieces: usize) -
         }
     }
     sum * half
+}
+
+/// Places and weights of the same rule on `(0, to)`, in order.
+pub fn gauss_points(to: f64, pieces: u32) -> Vec<[f64; 2]> {
+    let half = to / f64::from(2 * pieces);
+    let of_piece = |piece: u32| {
+        let middle = half * f64::from(2 * piece + 1);
+        let before = NODES.into_iter().rev().map(move |(node, _, weight, _)| [middle - half * node, half * weight]);
+        before.chain(NODES.into_iter().map(move |(node, _, weight, _)| [middle + half * node, half * weight]))
+    };
+    (0..pieces).flat_map(of_piece).collect()
 }
 
 /// Compares the two sides of an identity at `cases` random points, relative to the larger of them and of the third number.
@@ -265,32 +252,5 @@ pub fn unit(samples: &mut Samples) -> f64 {
         x if x < 1.0 => samples.log(1e-6, 0.1),
         x if x < 2.0 => 1.0 - samples.log(1e-6, 0.1),
         _ => samples.even(0.1, 0.9),
-    }
-}
-
-/// Asserts what every page of statements asserts of itself: each is examined, comes out as expected, refuses at least two wrong forms, and
-/// has a name of its own. `fails` names the statements that are false as they stand.
-#[cfg(test)]
-pub fn expect_outcomes(all: &[Statement], fails: &[&str]) {
-    use crate::contract::claim::Evidence;
-    let mut names: Vec<&str> = all.iter().map(|statement| statement.id).collect();
-    names.sort_unstable();
-    names.dedup();
-    assert_eq!(names.len(), all.len(), "two statements of one name");
-    for statement in all {
-        let examined = statement.examined().unwrap();
-        let evidence = &examined.claim.evidence;
-        let expected = match evidence {
-            Evidence::Direct(test) => test.holds() != fails.contains(&statement.id),
-            Evidence::Slip { printed, corrected, .. } => !printed.holds() && corrected.holds(),
-            Evidence::OnlyWhen { inside, outside, .. } => inside.holds() && !outside.holds(),
-            Evidence::NotChecked { .. } => true,
-        };
-        assert!(expected, "{}: {evidence:?}", statement.id);
-        if !matches!(evidence, Evidence::NotChecked { .. }) {
-            assert!(examined.variants.len() >= 2, "{}: two wrong forms at least", statement.id);
-        }
-        let survivors: Vec<_> = examined.survivors().collect();
-        assert!(survivors.is_empty(), "{}: {survivors:?}", statement.id);
     }
 }

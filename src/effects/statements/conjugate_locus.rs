@@ -3,18 +3,20 @@
 //! At arc length, `2h = 1`. Integrals over φ are taken over `y`, `dφ = dy/√(C − Z)`; conjugate points are zeros of the integrated variation of
 //! (9), or, where they are differentiated by `p_θ`, the closed form of the `geometry` room in double-double.
 
-use super::bodies::{Body, Motion, Wide, direct, exact, identity, integral, slope, unit, wide};
-use super::conjugate_times::slopes;
+use super::bodies::{Body, Motion, direct, exact, identity, integral, unit};
 use super::darboux_form::{body_and_phi, jacobi, z_at};
+use super::differences::{Wide, slope_of_order_4, slopes_of_order_4, wide};
 use super::first_return::{body_and_clairaut, constants, first_return, motion, step_of};
 use super::pendulum::states;
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
-use crate::geometry::serret_andoyer::flow::first_conjugate_time_by_integration;
+use crate::geometry::serret_andoyer::flow::{SerretAndoyerFlow, first_conjugate_time_by_integration};
 use crate::geometry::serret_andoyer::{Branch, Clairaut, Extremal, Metric, Start, first_conjugate_point};
 use crate::numerics::elliptic::jacobi::Jacobi;
 use crate::numerics::elliptic::mean::complete_k;
 use crate::numerics::real::Real;
+use crate::numerics::taylor::flow::{Columns, Joined, WithColumns};
+use crate::numerics::taylor::integrator::{Settings, integrate};
 
 /// `f`, `∂f/∂p_θ`, `∂²f/∂p_θ²` where `μ` is `1/Z`.
 fn f(z: Wide, p: Wide) -> [Wide; 3] {
@@ -59,11 +61,13 @@ fn slopes_of_f(form: Form) -> Result<Test, Unexamined> {
     for _ in 0..100 {
         let (body, phi) = body_and_phi(&mut samples);
         let mu = Wide::ONE / z_at(&body, phi);
-        let p = wide(samples.even(0.05, 0.95)) * mu.sqrt();
+        let part = unit(&mut samples);
+        let p = wide(part) * mu.sqrt();
         let f_at = |p: Wide| p / (mu.sqrt() * (mu - p * p).sqrt());
-        let step = 1e-5 * p.to_f64();
-        let first = slope(f_at, p, step);
-        let second = slope(|p| slope(f_at, p, step), p, step);
+        // f is singular at p_θ = √μ only.
+        let step = 1e-5 * (1.0 - part) * mu.sqrt().to_f64();
+        let first = slope_of_order_4(f_at, p, step);
+        let second = slope_of_order_4(|p| slope_of_order_4(f_at, p, step), p, step);
         let rest = mu - p * p;
         let (one, two) = match form {
             1 => (-(mu.sqrt() / (rest * rest.sqrt())), second),
@@ -116,7 +120,7 @@ fn conjugacy(form: Form) -> Result<Test, Unexamined> {
         let [y, _] = conjugate(&motion, motion.y0().to_f64())?;
         let left = -over_phi(&body, p, 1, equator, wide(y));
         let start = over_phi(&body, p, 1, motion.y0(), equator);
-        let change = slope(|p| first_return(&body, p, 0), p, step_of(&body, p));
+        let change = slope_of_order_4(|p| first_return(&body, p, 0), p, step_of(&body, p));
         let right = match form {
             1 => -start + change,
             2 => start - change,
@@ -130,12 +134,17 @@ fn conjugacy(form: Form) -> Result<Test, Unexamined> {
 
 fn right_side_is_positive(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut cases) = (Samples::new(1011), Cases::default());
-    for _ in 0..100 {
+    for case in 0..100 {
         let motion = motion(&mut samples);
         let (body, p, equator) = (motion.body, motion.p, Wide::PI / wide(2.0));
-        // The start on the equator, or below it.
-        let start = if form == 1 { over_phi(&body, p, 1, motion.y0(), equator) } else { Wide::ZERO };
-        let change = slope(|p| first_return(&body, p, 0), p, step_of(&body, p));
+        // The integral from φ0 to 0: below the equator, on it, or above it, where y is π − y0.
+        let below = over_phi(&body, p, 1, motion.y0(), equator);
+        let start = match (form, case % 3) {
+            (1, _) => below,
+            (_, 0) => Wide::ZERO,
+            _ => -below,
+        };
+        let change = slope_of_order_4(|p| first_return(&body, p, 0), p, step_of(&body, p));
         let value = match form {
             2 => -start + change,
             3 => -start + wide(0.5) * change,
@@ -192,9 +201,9 @@ fn motion_of_locus(form: Form) -> Result<Test, Unexamined> {
         let (motion, phi0, step) = locus_start(samples);
         let (body, p, equator) = (motion.body, motion.p, Wide::PI / wide(2.0));
         let y = locus(&body, phi0, p)[2];
-        let along = slope(|p| locus(&body, phi0, p)[1], p, step);
+        let along = slope_of_order_4(|p| locus(&body, phi0, p)[1], p, step);
         let large = 50.0 * step;
-        let bend = slope(|p| slope(|p| first_return(&body, p, 0), p, large), p, large);
+        let bend = slope_of_order_4(|p| slope_of_order_4(|p| first_return(&body, p, 0), p, large), p, large);
         let (start, end) = (over_phi(&body, p, 2, motion.y0(), equator), over_phi(&body, p, 2, equator, y));
         let right = match form {
             1 => bend - start + end,
@@ -210,7 +219,7 @@ fn tangent_of_locus(form: Form) -> Result<Test, Unexamined> {
         let (motion, phi0, step) = locus_start(samples);
         let (body, p) = (motion.body, motion.p);
         let y = locus(&body, phi0, p)[2];
-        let [by_theta, by_phi] = slopes(
+        let [by_theta, by_phi] = slopes_of_order_4(
             |p| {
                 let [theta, phi, _] = locus(&body, phi0, p);
                 [theta, phi]
@@ -281,20 +290,83 @@ fn phases_at_rest(form: Form) -> Result<Test, Unexamined> {
 }
 
 fn both_ends_of_cusp(form: Form) -> Result<Test, Unexamined> {
-    exact(1018, |samples| {
-        let (body, phi0) = body_and_phi(samples);
-        let Body { a, b, .. } = body;
-        let z0 = z_at(&body, phi0);
-        // p_θ² = 1/Z(φ0): ξ1 = (1/p_θ² − A)/(B − A).
-        let xi1 = (z0 - a) / (b - a);
-        let j = jacobi(&body, phi0);
-        let left = match form {
-            1 => j.sn * j.sn,
-            2 => j.cn,
-            _ => j.cn * j.cn,
+    let (mut samples, mut worst) = (Samples::new(1018), Worst::default());
+    for _ in 0..100 {
+        // At rest in y at φ0 < 0, where p_θ² = 2/z(φ0), for half a period.
+        let motion = at_rest(motion(&mut samples));
+        let half = 2.0 * (motion.k / motion.speed).to_f64();
+        let time = if form == 1 { 0.5 * half } else { half };
+        let y = states(&motion, 0.0, &[time])?[0][1];
+        let (sine, cosine) = libm::sincos(y);
+        // sin y is cn(αφ|k); the end is −φ0, on the other side of the equator.
+        worst.see(if form == 2 { cosine * cosine } else { sine * sine } - (Wide::ONE - motion.xi1).to_f64());
+        let y0 = motion.y0().to_f64();
+        worst.see(y - if form == 3 { y0 } else { std::f64::consts::PI - y0 });
+    }
+    Ok(worst.at_most(1e-12, "rounding of an integration over half a period"))
+}
+
+/// The motion of the same constants that starts at rest in y: `cos² y0 = ξ1`.
+fn at_rest(motion: Motion) -> Motion {
+    Motion::posed(motion.body, motion.p, motion.xi1, Wide::ONE)
+}
+
+fn slope_at_cusp(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(1024), Worst::default());
+    for _ in 0..30 {
+        let motion = at_rest(motion(&mut samples));
+        let (body, phi0) = (motion.body, -over_strip(&motion));
+        // dθ/dφ along the locus, at p_θ short of the limit by this part.
+        let slope_at = |short: f64| {
+            let p = motion.p * wide(1.0 - short);
+            let along = |p: Wide| {
+                let [theta, phi, _] = locus(&body, phi0, p);
+                [theta, phi]
+            };
+            let [by_theta, by_phi] = slopes_of_order_4(along, p, 1e-3 * short * p.to_f64());
+            (by_theta / by_phi).abs()
         };
-        [left, Wide::ONE - xi1, wide(1e-3)]
-    })
+        // Ten times as steep for a hundredth of the distance.
+        let growth = slope_at(1e-12) / slope_at(1e-10);
+        let expected = match form {
+            1 => 1.0,
+            2 => 0.1,
+            3 => 100.0,
+            _ => 10.0,
+        };
+        worst.see(growth.to_f64() / expected - 1.0);
+    }
+    Ok(worst.at_most(1e-3, "the next power of the root of the distance from the limit"))
+}
+
+/// `[x, y, δy]` after a time, the variation that keeps the energy; `p_x` of either sign.
+fn varied(motion: &Motion, y0: f64, [p_x, p_y]: [f64; 2], t: f64) -> Result<[f64; 3], Unexamined> {
+    let (flow, base) = SerretAndoyerFlow::new(motion.body.short(), y0, p_x, p_y);
+    let (column, parameter) = flow.column(&base);
+    let system = WithColumns { flow, parameters: [parameter] };
+    let start = Joined { base, columns: Columns([column]) };
+    let state = integrate(&system, &start, (0.0, t), &Settings::new(1e-16), &mut ()).map_err(unexamined)?.state;
+    Ok([state.base[0], state.base[1], state.columns.0[0][0]])
+}
+
+fn mirrored_locus(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(1025), Worst::default());
+    for case in 0..60 {
+        let motion = motion(&mut samples);
+        let ([a, b, c], y0) = (motion.body.short(), motion.y0().to_f64());
+        let y0 = if case % 2 == 0 { y0 } else { std::f64::consts::PI - y0 };
+        let quarter = (motion.k / motion.speed).to_f64();
+        let (p, p_y) = (motion.p.to_f64(), motion.p_y().to_f64());
+        let right = first_conjugate_time_by_integration(a, b, c, y0, p, p_y, 0.0, 5.0 * quarter, 1e-16);
+        let right = right.map_err(unexamined)?;
+        let other = if form == 2 { [p, -p_y] } else { [-p, p_y] };
+        // The other one is conjugate at the same time.
+        let (left, before) = (varied(&motion, y0, other, right.t1)?, varied(&motion, y0, other, quarter)?);
+        worst.see(left[2] / before[2]);
+        worst.compare(right.x, if form == 1 { left[0] } else { -left[0] }, 0.0);
+        worst.see(right.y - if form == 3 { std::f64::consts::PI - left[1] } else { left[1] });
+    }
+    Ok(worst.at_most(1e-11, "rounding of an integration, times the condition of the problem"))
 }
 
 fn angle_of_equator(form: Form) -> Result<Test, Unexamined> {
@@ -363,8 +435,10 @@ pub const ALL: &[Statement] = &[
         place: PROOF,
         says: "−∫ f' dζ (φ0 to 0) − Δθ' > 0, hence φ* < 0.",
         method: "quadrature and difference quotients at random starts",
-        shape: Shape::OnlyWhen { condition: "φ0 = 0; below the equator it fails for p_θ close enough to √μ(φ0)" },
-        forms: &["from the equator", "from φ0 < 0", "the sign of Δθ'", "that sign and half of it"],
+        shape: Shape::OnlyWhen {
+            condition: "φ0 ≥ 0; below the equator it fails for p_θ close enough to √μ(φ0)"
+        },
+        forms: &["from φ0 ≥ 0", "from φ0 < 0", "the sign of Δθ'", "that sign and half of it"],
         examine: right_side_is_positive,
         note: "It is derived by an integral of f' from −K(k)/α, where f is not real and past a turning point at which f' is not integrable. \
                Near the cusp φ* is close to −φ0 > 0.",
@@ -449,11 +523,33 @@ pub const ALL: &[Statement] = &[
         [
             "both_ends_of_cusp",
             PROOF,
-            "For p_θ² → 2/z(φ0): cn²(αφ0|k) = 1 − ξ1, and the same at φ* = −φ0: the slope of the locus tends to infinity there.",
-            "random φ0",
+            "For p_θ² = 2/z(φ0) the extremal is at φ* = −φ0 after 2K(m)/M, and cn²(αφ*|k) = cn²(αφ0|k) = 1 − ξ1.",
+            "integrated motions that start at rest in y",
         ],
-        &["as printed", "sn² for cn²", "cn for cn²"],
+        &["as printed", "after K(m)/M", "sn² for cn²", "φ* = φ0"],
         both_ends_of_cusp,
+        "",
+    ),
+    direct(
+        [
+            "slope_at_cusp",
+            "Theorem 3.24 and its proof",
+            "For p_θ → √μ(φ0) the slope dθ/dφ of the conjugate locus tends to infinity, like (√μ(φ0) − p_θ)^(−1/2): the cusp is horizontal.",
+            "difference quotients of the closed form of the conjugate points, at two distances from the limit",
+        ],
+        &["as printed, with the power", "it tends to a limit", "dφ/dθ tends to infinity", "like the inverse distance"],
+        slope_at_cusp,
+        "",
+    ),
+    direct(
+        [
+            "mirrored_locus",
+            "Theorem 3.24",
+            "The conjugate locus has two components, symmetric about θ = 0: −p_θ leads to the mirror image.",
+            "first conjugate points of integrated extremals of p_θ and −p_θ, from both sides of the equator",
+        ],
+        &["as printed", "not mirrored", "−p_φ for −p_θ", "mirrored at the equator too"],
+        mirrored_locus,
         "",
     ),
     Statement {
@@ -467,11 +563,3 @@ pub const ALL: &[Statement] = &[
         note: "θ' = p_θ/μ = √A there. The figure's body is looked at on its own in Remark 3.25's experiment.",
     },
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_statement_has_the_expected_outcome() {
-        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
-    }
-}

@@ -3,7 +3,8 @@
 //! Determinants are difference quotients in double-double, of Proposition 3.2 written out here or of the paths of the `geometry` room;
 //! conjugate times are zeros of the integrated variation of (9).
 
-use super::bodies::{Body, Motion, Wide, by_differences, direct, exact, slope, wide};
+use super::bodies::{Body, Motion, by_differences, direct, exact};
+use super::differences::{Wide, slope_of_order_4, slopes_of_order_4, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::serret_andoyer::flow::first_conjugate_time_by_integration;
@@ -38,16 +39,9 @@ fn energy_constants(&Body { a, b, c }: &Body, p_x: Wide, h: Wide) -> [Wide; 2] {
     [((b - a) * (c * p_x * p_x - h2)).sqrt(), (h2 / (p_x * p_x) - a) / (b - a)]
 }
 
-/// The derivatives of two functions by the central difference of fourth order.
-pub fn slopes(f: impl Fn(Wide) -> [Wide; 2], at: Wide, step: f64) -> [Wide; 2] {
-    let h = wide(step);
-    let (far_back, back, on, far_on) = (f(at - h - h), f(at - h), f(at + h), f(at + h + h));
-    [0, 1].map(|i| (wide(8.0) * (on[i] - back[i]) - (far_on[i] - far_back[i])) / (wide(12.0) * h))
-}
-
 fn jacobian(f: impl Fn(Wide, Wide) -> [Wide; 2], x: Wide, y: Wide, step: f64) -> Wide {
-    let by_x = slopes(|x| f(x, y), x, step * x.to_f64());
-    let by_y = slopes(|y| f(x, y), y, step * y.to_f64());
+    let by_x = slopes_of_order_4(|x| f(x, y), x, step * x.to_f64());
+    let by_y = slopes_of_order_4(|y| f(x, y), y, step * y.to_f64());
     by_x[0] * by_y[1] - by_y[0] * by_x[1]
 }
 
@@ -110,19 +104,17 @@ fn non_degenerate(form: Form) -> Result<Test, Unexamined> {
         };
         let h = body.energy(y0, p, p_y);
         let by = |f: &dyn Fn(Wide) -> [Wide; 2], at: Wide, step: f64| {
-            [slope(|x| f(x)[0], at, step), slope(|x| f(x)[1], at, step)]
+            [slope_of_order_4(|x| f(x)[0], at, step), slope_of_order_4(|x| f(x)[1], at, step)]
         };
         let near = ((body.c * p * p - wide(2.0) * h) / (body.c * p * p)).to_f64().max(1e-24);
         let step = 1e-4 * near.min(1.0) * p.to_f64();
         let along_x = by(&|x| constants(&body, y0, x, p_y), p, step);
         let along_y = by(&|y| constants(&body, y0, p, y), p_y, step);
         let determinant = along_x[0] * along_y[1] - along_y[0] * along_x[1];
-        // In units of what both factors are made of.
+        // In units of p_y, C − z/2 and the root at their largest; the samples keep p_y/p_x above a millionth, C p_x² − 2h above a thousandth.
         let Body { a, b, c } = body;
-        let scale = p_y.abs().max(wide(1e-6) * p) * (c - b) / (p * p) * ((c - a) / (b - a)).sqrt();
-        cases.see(determinant.abs() > wide(1e-8) * scale * wide(near.sqrt()).min(wide(1e-4)) && near > 1e-20, || {
-            format!("ξ1 = {}", motion.xi1.to_f64())
-        });
+        let scale = p * (c - a) * (wide(2.0) / (p * p)) * (c / (b - a)).sqrt();
+        cases.see(determinant.abs() > wide(1e-10) * scale, || format!("ξ1 = {}", motion.xi1.to_f64()));
     }
     Ok(cases.none())
 }
@@ -195,7 +187,7 @@ fn second_kind(form: Form) -> Result<Test, Unexamined> {
         let (motion, phase) = motion_and_phase(samples);
         // The derivative of (17) by T: both sides vanish at T = 0.
         let left = match form {
-            1 => slope(
+            1 => slope_of_order_4(
                 |t| {
                     let j = Jacobi::new(t + motion.psi0, motion.m, motion.mc);
                     jacobi_epsilon(t + motion.psi0, motion.m, motion.mc) - j.cn * j.dn / j.sn
@@ -203,7 +195,7 @@ fn second_kind(form: Form) -> Result<Test, Unexamined> {
                 phase,
                 1e-6,
             ),
-            _ => slope(|t| rest_of_i(&motion, t), phase, 1e-6),
+            _ => slope_of_order_4(|t| rest_of_i(&motion, t), phase, 1e-6),
         };
         let j = Jacobi::new(phase + motion.psi0, motion.m, motion.mc);
         let right = match form {
@@ -248,20 +240,18 @@ fn zeros_of_sn(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut cases) = (Samples::new(609), Cases::default());
     for _ in 0..100 {
         let motion = Motion::ordinary(&mut samples);
-        let t1 = conjugate_after(&motion, motion.p_y().to_f64(), motion.y0().to_f64(), 0.0)?;
-        let other = match form {
-            1 => wide(t1) * motion.speed,
-            2 => motion.k + motion.k,
-            _ => wide(2.0) * motion.k - motion.psi0,
+        let zero = wide(2.0) * motion.k - motion.psi0;
+        let phase = match form {
+            1 => wide(conjugate_after(&motion, motion.p_y().to_f64(), motion.y0().to_f64(), 0.0)?) * motion.speed,
+            2 => motion.k * wide(1e-15),
+            _ => zero * wide(1.0 + samples.sign() * 1e-12),
         };
-        // Left side of (18), with the pole of I at the zero of sn multiplied out: sn·(ΛT − T + E-terms) + cn dn.
-        let j = Jacobi::new(other + motion.psi0, motion.m, motion.mc);
-        let j0 = Jacobi::new(motion.psi0, motion.m, motion.mc);
-        let epsilon = |u: Wide| jacobi_epsilon(u, motion.m, motion.mc);
-        let plain = epsilon(other + motion.psi0) - epsilon(motion.psi0) - j0.cn * j0.dn / j0.sn;
-        let left = j.sn * ((lambda(&motion.body, motion.xi1) - Wide::ONE) * other + plain) + j.cn * j.dn;
-        let is_zero_of_sn = j.sn.abs() < wide(1e-20);
-        cases.see(is_zero_of_sn && left.abs() > wide(1e-6), || format!("ξ1 = {}", motion.xi1.to_f64()));
+        // Left side of (18), in units of what multiplies the integral. The pole of I at the zero of sn is cn dn/sn in (17).
+        let j = Jacobi::new(phase + motion.psi0, motion.m, motion.mc);
+        let pole = if form == 3 { j.cn * j.dn / j.sn } else { Wide::ZERO };
+        let integral = phase - rest_of_i(&motion, phase) + pole;
+        let left = j.sn * (lambda(&motion.body, motion.xi1) * phase - integral);
+        cases.see(left.abs() > wide(1e-6), || format!("ξ1 = {}", motion.xi1.to_f64()));
     }
     Ok(cases.none())
 }
@@ -347,6 +337,57 @@ fn whole_determinant(form: Form) -> Result<Test, Unexamined> {
     })
 }
 
+fn delta_over_sine(form: Form) -> Result<Test, Unexamined> {
+    exact(614, |samples| {
+        let (motion, t) = motion_and_phase(samples);
+        let (Body { a, b, .. }, xi1, one) = (motion.body, motion.xi1, Wide::ONE);
+        let at = |u: Wide| Jacobi::new(u, motion.m, motion.mc);
+        let (j, j0) = (at(t + motion.psi0), at(motion.psi0));
+        let epsilon = |u: Wide| jacobi_epsilon(u, motion.m, motion.mc);
+        let plain = epsilon(t + motion.psi0) - epsilon(motion.psi0) + j.cn * j.dn / j.sn;
+        let start = if form == 2 { j0.cn } else { j0.cn * j0.dn };
+        let last = if form == 1 { -(a * (one - xi1) * start) } else { a * (one - xi1) * start };
+        let sum = b * j0.sn * xi1 * plain - b * xi1 * start + a * (one - xi1) * j0.sn * (plain - t) - last;
+        let right = if form == 3 { sum } else { sum / j0.sn };
+        [delta(&motion, t, 0), right, wide(1e-3) * b]
+    })
+}
+
+fn determinant_at_rest(form: Form) -> Result<Test, Unexamined> {
+    super::bodies::identity(615, 100, 1e-12, "error of a difference quotient of fourth order", |samples| {
+        let motion = Motion::ordinary(samples);
+        let motion = Motion::posed(motion.body, motion.p, motion.xi1, Wide::ONE);
+        let (Body { a, b, c }, Motion { xi1, xi3, p, .. }) = (motion.body, motion);
+        let (y0, phase) =
+            (motion.y0(), wide(samples.even(0.1, 0.9) + f64::from(samples.even(0.0, 4.0) as u32)) * motion.k);
+        let t = phase / motion.speed;
+        let end = |p_x: Wide, p_y: Wide| {
+            let start = Start::Momenta { y0, p_x, p_y };
+            let nan = wide(f64::NAN);
+            Metric::new(a, b, c).and_then(|metric| Extremal::new(&metric, start)).map_or([nan; 2], |extremal| {
+                let at = extremal.position(t);
+                [at.x, at.y]
+            })
+        };
+        let step = 1e-6 * p.to_f64();
+        let by_x = slopes_of_order_4(|x| end(x, Wide::ZERO), p, step);
+        let by_y = slopes_of_order_4(|y| end(p, y), Wide::ZERO, step);
+        let left = by_x[0] * by_y[1] - by_y[0] * by_x[1];
+        let (one, two) = (Wide::ONE, wide(2.0));
+        let j = Jacobi::new(phase, motion.m, motion.mc);
+        // (19) with sn0 → 0: what does not vanish, times t (Bξ1 + A(1 − ξ1)) sn.
+        let second = two / (p * p * p) * ((c * p * p - two * motion.h) / (b - a)).sqrt();
+        let front = p * (c - motion.body.z_half(y0)) * second * j.dn
+            / (two * (b - a) * (xi3 - xi1) * (one - xi1 * j.sn * j.sn));
+        let bracket = match form {
+            1 => b * xi1 - a * (one - xi1),
+            2 => a * xi1 + b * (one - xi1),
+            _ => b * xi1 + a * (one - xi1),
+        };
+        [left, front * t * bracket * if form == 3 { j.cn } else { j.sn }, Wide::ZERO]
+    })
+}
+
 const LEMMA_4: &str = "Lemma 3.4 and its proof";
 const LEMMA_5: &str = "Lemma 3.5 and its proof";
 const LEMMA_8: &str = "Lemma 3.8 and its proof";
@@ -424,7 +465,7 @@ pub const ALL: &[Statement] = &[
         ],
         &["as printed", "a minus before cn dn/sn", "cn² below", "plus the integral"],
         second_kind,
-        "",
+        "From one side of a zero of sn to the other the integral diverges: there the left side defines I, as its continuation.",
     ),
     direct(
         [
@@ -435,16 +476,16 @@ pub const ALL: &[Statement] = &[
         ],
         &["as printed", "A for A(1 − ξ1)", "A and B exchanged", "1 − Λ"],
         equation_15,
-        "",
+        "Every conjugate time lies beyond T = 2K − ψ0, where the integral diverges; it holds for the continuation of I by (17).",
     ),
     direct(
         [
             "zeros_of_sn",
             "after eq. (18)",
             "The zeros of sn do not solve (18): only those of the bracket do.",
-            "left side of (18) at T = 2K − ψ0, its pole multiplied out",
+            "left side of (18) beside T = 2K − ψ0, with I by (17)",
         ],
-        &["as printed", "at a conjugate time", "at T = 2K"],
+        &["as printed", "at a conjugate time", "at T = 0", "I without its pole"],
         zeros_of_sn,
         "",
     ),
@@ -472,6 +513,28 @@ pub const ALL: &[Statement] = &[
     },
     direct(
         [
+            "delta_over_sine",
+            LEMMA_8,
+            "Δ_Mt = (1/sn0) [B sn0 ξ1 (E(T + ψ0) − E(ψ0) + cn dn/sn) − Bξ1 cn0 dn0 + A(1 − ξ1) sn0 (the same bracket − T) − A(1 − ξ1) cn0 dn0].",
+            "the Δ_T of Lemma 3.5 at random phases",
+        ],
+        &["as printed", "the sign of the last term", "without dn0", "without 1/sn0"],
+        delta_over_sine,
+        "",
+    ),
+    direct(
+        [
+            "determinant_at_rest",
+            LEMMA_8,
+            "For cos² y0 = ξ1 the determinant of the end-point map is t (Bξ1 + A(1 − ξ1)) sn(Mt|m) times what does not vanish.",
+            "difference quotients of the end point by p_x and p_y(0) at p_y(0) = 0",
+        ],
+        &["as printed, with the factor", "a minus in the bracket", "A and B exchanged", "cn for sn"],
+        determinant_at_rest,
+        "The factor is p_x (C − z(0)/2) (2/p_x³) √((C p_x² − 2h)/(B − A)) dn/(2(B − A)(ξ3 − ξ1)(1 − ξ1 sn²)), the limit of (19).",
+    ),
+    direct(
+        [
             "whole_determinant",
             "eq. (19)",
             "det D e^t = −p_y(0)(C − z(0)/2) times the determinant of (p_x, h) → (M, ξ1), times (1 − ξ1 sn²)/(2 √(ξ1(1 − ξ1)) cn), times t cn dn sn/((B − A) √(ξ3 − ξ1) (1 − ξ1 sn²)²) Δ_T.",
@@ -482,11 +545,3 @@ pub const ALL: &[Statement] = &[
         "Here for every start, not only at rest in y.",
     ),
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_statement_has_the_expected_outcome() {
-        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
-    }
-}

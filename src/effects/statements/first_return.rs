@@ -3,8 +3,9 @@
 //! At arc length, `2h = 1`. Derivatives are difference quotients in double-double of the closed forms as printed; the first return is compared
 //! with integrated motions.
 
-use super::bodies::{Body, Motion, Wide, direct, fine_slope, identity, slope, unit, wide};
+use super::bodies::{Body, Motion, direct, identity, unit};
 use super::darboux_form::{body_and_phi, half_width, z_at};
+use super::differences::{Wide, slope_of_order_4, slope_of_order_8, wide};
 use super::pendulum::states;
 use super::statement::{Cases, Form, Samples, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
@@ -54,14 +55,16 @@ fn symmetry_of_mu(form: Form) -> Result<Test, Unexamined> {
         let phi = phi.abs();
         let mu = |phi: Wide| Wide::ONE / z_at(&body, phi);
         let step = 1e-6 * half_width(&body).to_f64();
-        let first = slope(mu, phi, step) * half_width(&body) / mu(phi);
-        let at_zero = slope(|x| slope(mu, x, step), Wide::ZERO, step);
+        let first = slope_of_order_4(mu, phi, step) * half_width(&body) / mu(phi);
+        let at_zero = slope_of_order_4(|x| slope_of_order_4(mu, x, step), Wide::ZERO, step);
         let Body { a, b, c } = body;
         let bend = -(wide(2.0) * (b - a) * (c - a) / (a * a));
-        let even = mu(-phi) == mu(phi) && slope(mu, Wide::ZERO, step).abs() < wide(1e-18);
+        // Relative: that both are the same function, not the same roundings.
+        let same = |x: Wide, y: Wide| ((mu(x) - mu(y)) / mu(y)).abs() < wide(1e-24);
+        let even = same(-phi, phi) && slope_of_order_4(mu, Wide::ZERO, step).abs() < wide(1e-18);
         let holds = match form {
-            1 => mu(-phi) == mu(phi) && first > Wide::ZERO,
-            2 => mu(half_width(&body) - phi) == mu(phi),
+            1 => even && first > Wide::ZERO,
+            2 => same(half_width(&body) - phi, phi),
             _ => even && first < Wide::ZERO && ((at_zero - bend) / bend).abs() < wide(1e-8),
         };
         cases.see(holds, || format!("φ α/K = {}", (phi / half_width(&body)).to_f64()));
@@ -96,15 +99,15 @@ fn slope_of_period(form: Form) -> Result<Test, Unexamined> {
         let (body, p) = body_and_clairaut(samples);
         let h = step_of(&body, p);
         let [_, mc, speed] = constants(&body, p);
-        let by = |i: usize| fine_slope(|p| constants(&body, p)[i], p, h);
-        let k_slope = fine_slope(|m| complete_k(Wide::ONE - m), Wide::ONE - mc, 1e-3 * mc.to_f64());
+        let by = |i: usize| slope_of_order_8(|p| constants(&body, p)[i], p, h);
+        let k_slope = slope_of_order_8(|m| complete_k(Wide::ONE - m), Wide::ONE - mc, 1e-3 * mc.to_f64());
         let (first, second) = (by(0) * k_slope / speed, complete_k(mc) * by(2) / (speed * speed));
         let right = match form {
             1 => first + second,
             2 => first - second * speed,
             _ => first - second,
         };
-        [fine_slope(|p| quarter(&body, p), p, h), right, Wide::ZERO]
+        [slope_of_order_8(|p| quarter(&body, p), p, h), right, Wide::ZERO]
     })
 }
 
@@ -113,19 +116,19 @@ fn bend_of_period(form: Form) -> Result<Test, Unexamined> {
         let (body, p) = body_and_clairaut(samples);
         let h = step_of(&body, p);
         let ([_, mc, speed], m_at) = (constants(&body, p), |p: Wide| constants(&body, p));
-        let first = |i: usize| fine_slope(|p| m_at(p)[i], p, h);
-        let second = |i: usize| fine_slope(|p| fine_slope(|p| m_at(p)[i], p, h), p, h);
+        let first = |i: usize| slope_of_order_8(|p| m_at(p)[i], p, h);
+        let second = |i: usize| slope_of_order_8(|p| slope_of_order_8(|p| m_at(p)[i], p, h), p, h);
         let k_at = |m: Wide| complete_k(Wide::ONE - m);
         let step = 1e-3 * mc.to_f64();
-        let k1 = fine_slope(k_at, Wide::ONE - mc, step);
-        let k2 = fine_slope(|m| fine_slope(k_at, m, step), Wide::ONE - mc, step);
+        let k1 = slope_of_order_8(k_at, Wide::ONE - mc, step);
+        let k2 = slope_of_order_8(|m| slope_of_order_8(k_at, m, step), Wide::ONE - mc, step);
         let (m1, m2, s1, s2) = (first(0), second(0), first(2), second(2));
         let two = if form == 1 { Wide::ONE } else { wide(2.0) };
         let sign = if form == 2 { -Wide::ONE } else { Wide::ONE };
         let right = complete_k(mc) / (speed * speed * speed) * (two * s1 * s1 - speed * s2)
             + k1 / (speed * speed) * (speed * m2 - sign * wide(2.0) * m1 * s1)
             + k2 * m1 * m1 / speed;
-        [fine_slope(|p| fine_slope(|p| quarter(&body, p), p, h), p, h), right, Wide::ZERO]
+        [slope_of_order_8(|p| slope_of_order_8(|p| quarter(&body, p), p, h), p, h), right, Wide::ZERO]
     })
 }
 
@@ -135,8 +138,8 @@ fn derivatives_of_constants(form: Form) -> Result<Test, Unexamined> {
         let (Body { a, b, c }, one, two) = (body, Wide::ONE, wide(2.0));
         // Both are singular at p_θ = C^(−1/2) only.
         let h = 1e-3 * (p - one / c.sqrt()).to_f64();
-        let at = |i: usize| fine_slope(|p| constants(&body, p)[i], p, h);
-        let second = |i: usize| fine_slope(|p| fine_slope(|p| constants(&body, p)[i], p, h), p, h);
+        let at = |i: usize| slope_of_order_8(|p| constants(&body, p)[i], p, h);
+        let second = |i: usize| slope_of_order_8(|p| slope_of_order_8(|p| constants(&body, p)[i], p, h), p, h);
         let (x3, speed) = (c * p * p - one, constants(&body, p)[2]);
         let five = wide(if form == 1 { 3.0 } else { 5.0 });
         let plus = if form == 2 { -one } else { one };
@@ -189,18 +192,17 @@ fn potential(form: Form) -> Result<Test, Unexamined> {
     Ok(worst.at_most(1e-12, "rounding of an integration over a period"))
 }
 
-fn falls_and_is_convex(form: Form) -> Result<Test, Unexamined> {
+fn falls_and_is_convex(form: Form, value: fn(&Body, Wide) -> Wide) -> Result<Test, Unexamined> {
     let (mut samples, mut cases) = (Samples::new(1020), Cases::default());
     for _ in 0..100 {
         let (body, p) = body_and_clairaut(&mut samples);
         let h = step_of(&body, p);
+        let first = |p: Wide| slope_of_order_8(|p| value(&body, p), p, h);
+        let bend = slope_of_order_8(first, p, h);
         let (falls, bends) = match form {
-            1 => (quarter(&body, p) - quarter(&body, p - wide(h)) > Wide::ZERO, true),
-            _ => {
-                let first = |p: Wide| fine_slope(|p| first_return(&body, p, 0), p, h);
-                let bend = fine_slope(first, p, h);
-                (first(p) < Wide::ZERO, if form == 2 { bend < Wide::ZERO } else { bend > Wide::ZERO })
-            }
+            1 => (first(p) > Wide::ZERO, bend > Wide::ZERO),
+            2 => (first(p) < Wide::ZERO, bend < Wide::ZERO),
+            _ => (first(p) < Wide::ZERO, bend > Wide::ZERO),
         };
         cases.see(falls && bends, || format!("p_θ = {} on {:?}", p.to_f64(), body.short()));
     }
@@ -236,13 +238,36 @@ fn cut_ray(form: Form) -> Result<Test, Unexamined> {
         let z0 = z_at(&body, phi0);
         let (low, high) = (Wide::ONE / body.b.sqrt(), Wide::ONE / if form == 2 { body.a.sqrt() } else { z0.sqrt() });
         let p = low + (high - low) * wide(unit(&mut samples));
-        // Both branches of p_θ meet on the ray at θ = Δθ(p_θ); its end is the cusp's angle, and it has no other one.
+        // θ = Δθ(p_θ) on the ray; its end is the cusp's angle, and it has no other one.
         let (here, end) = (first_return(&body, p, 0), first_return(&body, Wide::ONE / z0.sqrt(), 0));
-        let far = first_return(&body, low + (p - low) * wide(1e-4), 0);
+        // Towards the separatrix it grows like a logarithm: by the same again for the same factor of the distance, without bound.
+        let short = (p - low).min(wide(1e-6) * low);
+        let beside = |part: f64| first_return(&body, low + short * wide(part), 0);
+        let [first, second] = [beside(1e-4) - beside(1.0), beside(1e-8) - beside(1e-4)];
+        let grows = (first / second - Wide::ONE).abs() < wide(1e-2) && first > Wide::ZERO;
         let holds = if form == 1 { here < end } else { here > end };
-        cases.see(holds && far > here, || format!("φ0 α/K = {}", (phi0 / half_width(&body)).to_f64()));
+        cases.see(holds && grows, || format!("φ0 α/K = {}", (phi0 / half_width(&body)).to_f64()));
     }
     Ok(cases.none())
+}
+
+fn meeting_on_ray(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(1023), Worst::default());
+    for _ in 0..100 {
+        let motion = motion(&mut samples);
+        let half = 2.0 * (motion.k / motion.speed).to_f64();
+        let time = if form == 1 { half * 0.75 } else { half };
+        let (y0, p_y) = (motion.y0().to_f64(), motion.p_y().to_f64());
+        // φ is odd about y = π/2: −φ0 is π − y0.
+        let y = if form == 2 { y0 } else { std::f64::consts::PI - y0 };
+        let angle = first_return(&motion.body, motion.p, if form == 3 { 2 } else { 0 }).to_f64();
+        for p_y in [p_y, -p_y] {
+            let end = states(&motion, p_y, &[time])?[0];
+            worst.see(end[1] - y);
+            worst.compare(end[0], angle, 0.0);
+        }
+    }
+    Ok(worst.at_most(1e-12, "rounding of an integration over half a period"))
 }
 
 const PLACE: &str = "section 3.3.3";
@@ -330,8 +355,19 @@ pub const ALL: &[Statement] = &[
             "Δθ(p_θ) is strictly decreasing and strictly convex on (B^(−1/2), A^(−1/2)): the flow is tame.",
             BY_SLOPES,
         ],
-        &["as printed", "the period grows", "concave"],
-        falls_and_is_convex,
+        &["as printed", "it grows", "concave"],
+        |form| falls_and_is_convex(form, |body, p| first_return(body, p, 0)),
+        "",
+    ),
+    direct(
+        [
+            "period_falls_and_is_convex",
+            CONVEX,
+            "T(p_θ) = 4K(m)/M is strictly decreasing and strictly convex on (B^(−1/2), A^(−1/2)).",
+            BY_SLOPES,
+        ],
+        &["as printed", "it grows", "concave"],
+        |form| falls_and_is_convex(form, quarter),
         "",
     ),
     direct(
@@ -349,19 +385,22 @@ pub const ALL: &[Statement] = &[
         [
             "cut_ray",
             "section 5.1, Figure 3",
-            "Extremals of one p_θ from (0, φ0) meet at (Δθ(p_θ), −φ0): these points form the ray θ ≥ θ*(φ0), θ* = Δθ(√μ(φ0)) being the cusp's angle.",
-            "printed first return at random φ0 and p_θ, and close to the separatrix",
+            "The points (Δθ(p_θ), −φ0) form the ray θ ≥ θ*(φ0), θ* = Δθ(√μ(φ0)) being the cusp's angle; towards the separatrix Δθ grows like a logarithm.",
+            "printed first return at random φ0 and p_θ, and ever closer to the separatrix",
         ],
         &["as printed", "θ ≤ θ*", "all p_θ up to A^(−1/2)"],
         cut_ray,
         "That no earlier point is a cut point is looked at with the wave fronts of Figure 3.",
     ),
+    direct(
+        [
+            "meeting_on_ray",
+            "section 5.1, Figure 3",
+            "The two extremals of one p_θ from (0, φ0) meet at (Δθ(p_θ), −φ0), half a period after the start.",
+            "both integrated, against the printed first return",
+        ],
+        &["as printed", "after three quarters of that", "at φ0", "half of Δθ"],
+        meeting_on_ray,
+        "",
+    ),
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_statement_has_the_expected_outcome() {
-        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
-    }
-}

@@ -4,10 +4,9 @@
 //! sphere are Hamilton's equations of the printed H in the chart, difference quotients too. Signs: h = r × p = −H, so that the lift
 //! `r' = ω × r`, `h' = ω × h` is the motion with body velocity Ω = −ω and I3 = 2, I1 = 2k².
 
+use super::differences::{Wide, slope_of_order_2, slopes_of_order_2, wide};
 use super::spin_metric::printed_hamiltonian;
-use super::spin_points::{
-    ALGEBRA, ChartPoint, POINTS, QUOTIENT, Wide, chart_points, cross, dot, reason, slope, slopes, wide,
-};
+use super::spin_points::{ALGEBRA, ChartPoint, POINTS, QUOTIENT, chart_points, cross, dot, reason};
 use super::statement::{Samples, Shape, Statement, Worst};
 use crate::numerics::real::Real;
 
@@ -47,7 +46,7 @@ fn matrix_slope(curve: impl Fn(Wide) -> Matrix, at: Wide) -> Matrix {
         let matrix = curve(s);
         std::array::from_fn::<Wide, 9, _>(|i| matrix[i / 3][i % 3])
     };
-    let rate = slopes(entries, at);
+    let rate = slopes_of_order_2(entries, at);
     std::array::from_fn(|i| std::array::from_fn(|j| rate[3 * i + j]))
 }
 
@@ -140,7 +139,7 @@ const FIRST_ROW: Statement = Statement {
             };
             let [r1, r2, r3] = read(Wide::ZERO);
             let printed = [u3 * r2, -(u3 * r1) + u1 * r3, -(u1 * r2)];
-            let rate = slopes(read, Wide::ZERO);
+            let rate = slopes_of_order_2(read, Wide::ZERO);
             (0..3).for_each(|i| worst.see(((rate[i] - printed[i]) / (u1.abs() + u3.abs())).to_f64()));
         }
         Ok(worst.at_most(QUOTIENT, reason(QUOTIENT)))
@@ -198,7 +197,7 @@ const ENDS: Statement = Statement {
             };
             let [w1, _, w3] = body.velocity();
             let size = dot(body.momentum, body.momentum).sqrt() * (w1.abs() + w3.abs());
-            worst.see((slope(scalar, Wide::ZERO) / size).to_f64());
+            worst.see((slope_of_order_2(scalar, Wide::ZERO) / size).to_f64());
         }
         Ok(worst.at_most(QUOTIENT, reason(QUOTIENT)))
     },
@@ -217,10 +216,10 @@ const PROPOSITION_4_3: Statement = Statement {
         let mut worst = Worst::default();
         for point in chart_points(435) {
             let hamiltonian = |point: ChartPoint| printed_hamiltonian(&point, 0);
-            let theta_rate = slope(|p_theta| hamiltonian(ChartPoint { p_theta, ..point }), point.p_theta);
-            let phi_rate = slope(|p_phi| hamiltonian(ChartPoint { p_phi, ..point }), point.p_phi);
-            let p_theta_rate = -slope(|theta| hamiltonian(ChartPoint { theta, ..point }), point.theta);
-            let p_phi_rate = -slope(|phi| hamiltonian(ChartPoint { phi, ..point }), point.phi);
+            let theta_rate = slope_of_order_2(|p_theta| hamiltonian(ChartPoint { p_theta, ..point }), point.p_theta);
+            let phi_rate = slope_of_order_2(|p_phi| hamiltonian(ChartPoint { p_phi, ..point }), point.p_phi);
+            let p_theta_rate = -slope_of_order_2(|theta| hamiltonian(ChartPoint { theta, ..point }), point.theta);
+            let p_phi_rate = -slope_of_order_2(|phi| hamiltonian(ChartPoint { phi, ..point }), point.phi);
             let speed = theta_rate.abs() + phi_rate.abs() + p_theta_rate.abs() + p_phi_rate.abs();
             // A direction of unit size: the quotient's step is then small beside every curvature.
             let moved = |s: Wide| ChartPoint {
@@ -242,8 +241,10 @@ const PROPOSITION_4_3: Statement = Statement {
                 omega = omega.map(|w| -w);
             }
             let precessed = cross(omega, h);
-            let (r_rate, h_rate) =
-                (slopes(|s| moved(s).position(), Wide::ZERO), slopes(|s| moved(s).momentum(), Wide::ZERO));
+            let (r_rate, h_rate) = (
+                slopes_of_order_2(|s| moved(s).position(), Wide::ZERO),
+                slopes_of_order_2(|s| moved(s).momentum(), Wide::ZERO),
+            );
             for i in 0..3 {
                 let size = Wide::ONE + dot(h, h).sqrt();
                 worst.see((r_rate[i] - turned[i] / speed).to_f64());
@@ -283,7 +284,7 @@ const EULER: Statement = Statement {
             };
             let [w1, _, w3] = body.velocity();
             let size = dot(body.momentum, body.momentum).sqrt() * (w1.abs() + w3.abs());
-            slopes(in_space, Wide::ZERO).into_iter().for_each(|drift| worst.see((drift / size).to_f64()));
+            slopes_of_order_2(in_space, Wide::ZERO).into_iter().for_each(|drift| worst.see((drift / size).to_f64()));
         }
         Ok(worst.at_most(QUOTIENT, reason(QUOTIENT)))
     },
@@ -317,11 +318,3 @@ const FIRST_INTEGRALS: Statement = Statement {
     },
     note: "",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -3,7 +3,8 @@
 //! Motions are integrated by the flow (9) of the `geometry` room, which knows no closed form; velocities and linearisations are difference
 //! quotients of the Hamiltonian (7).
 
-use super::bodies::{Body, Motion, Wide, by_differences, direct, exact, slope, unit, wide};
+use super::bodies::{Body, Motion, by_differences, direct, exact, unit};
+use super::differences::{Wide, slope_of_order_4, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::serret_andoyer::flow::trajectory;
@@ -40,9 +41,9 @@ fn equations_9(form: Form) -> Result<Test, Unexamined> {
             if form == 3 { -swing } else { swing },
         ];
         let left = [
-            slope(|x| body.energy(y, x, p_y), p_x, 1e-5),
-            slope(|x| body.energy(y, p_x, x), p_y, 1e-5),
-            -slope(|x| body.energy(x, p_x, p_y), y, 1e-5),
+            slope_of_order_4(|x| body.energy(y, x, p_y), p_x, 1e-5),
+            slope_of_order_4(|x| body.energy(y, p_x, x), p_y, 1e-5),
+            -slope_of_order_4(|x| body.energy(x, p_x, p_y), y, 1e-5),
         ];
         let i = (samples.even(0.0, 3.0) as usize).min(2);
         [left[i], right[i], wide(1e-6) * body.energy(y, p_x, p_y)]
@@ -95,9 +96,9 @@ fn equilibria(form: Form) -> Result<Test, Unexamined> {
         };
         let p = if form == 2 { p_y } else { Wide::ZERO };
         let scale = body.c * p_x * p_x * wide(1e-14) * (body.b - body.a) / body.c;
-        let y_rate = slope(|x| body.energy(y, p_x, x), p, 1e-6);
-        let p_rate = slope(|x| body.energy(x, p_x, p), y, 1e-6);
-        let beside = slope(|x| body.energy(x, p_x, p), y + wide(0.3), 1e-6).abs() > scale;
+        let y_rate = slope_of_order_4(|x| body.energy(y, p_x, x), p, 1e-6);
+        let p_rate = slope_of_order_4(|x| body.energy(x, p_x, p), y, 1e-6);
+        let beside = slope_of_order_4(|x| body.energy(x, p_x, p), y + wide(0.3), 1e-6).abs() > scale;
         let rests = y_rate.abs() < scale && p_rate.abs() < scale;
         cases.see(rests && beside, || format!("y = {}", y.to_f64()));
     }
@@ -108,7 +109,7 @@ fn natural_system(form: Form) -> Result<Test, Unexamined> {
     by_differences(405, |samples| {
         let (body, y, p_x, p_y) = state(samples);
         let h = body.energy(y, p_x, p_y);
-        let rate = slope(|x| body.energy(y, p_x, x), p_y, 1e-5);
+        let rate = slope_of_order_4(|x| body.energy(y, p_x, x), p_y, 1e-5);
         let (half_z, two) = (body.z_half(y), wide(2.0));
         let v = match form {
             1 => (body.c + half_z) * (p_x * p_x * half_z - two * h),
@@ -195,17 +196,18 @@ fn range_of_oscillation(form: Form) -> Result<Test, Unexamined> {
 
 fn rotations_are_monotone(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut cases) = (Samples::new(409), Cases::default());
-    for _ in 0..150 {
+    for _ in 0..100 {
         let motion = match form {
             1 => Motion::ordinary(&mut samples),
             _ => Motion::ordinary_rotating(&mut samples),
         };
-        let mut times = times_of(&motion, &mut samples, 8.0);
-        times.sort_by(f64::total_cmp);
+        // A whole turn, and a second one.
+        let end = 8.0 * (motion.k / motion.speed).to_f64();
+        let times: Vec<f64> = (0..=100).map(|i| f64::from(i) * end / 100.0).collect();
         let path = states(&motion, motion.p_y().to_f64(), &times)?;
-        let falls =
-            path.windows(2).any(|pair| if form == 2 { pair[1][1] >= pair[0][1] } else { pair[1][1] <= pair[0][1] });
-        cases.see(!falls, || format!("ξ1 = {}", motion.xi1.to_f64()));
+        let grows = path.windows(2).all(|pair| pair[1][1] > pair[0][1]) && path.iter().all(|state| state[2] > 0.0);
+        let falls = path.windows(2).all(|pair| pair[1][1] < pair[0][1]);
+        cases.see(if form == 2 { falls } else { grows }, || format!("ξ1 = {}", motion.xi1.to_f64()));
     }
     Ok(cases.none())
 }
@@ -247,33 +249,80 @@ fn separatrix_joins(form: Form) -> Result<Test, Unexamined> {
     Ok(worst.at_most(1e-5, "the square of the distance, and rounding that the unstable equilibrium magnifies"))
 }
 
-fn reflected(form: Form) -> Result<Test, Unexamined> {
-    let (mut samples, mut worst) = (Samples::new(412), Worst::default());
-    for _ in 0..100 {
-        let outside = form == 1;
-        let motion = if outside { Motion::ordinary_rotating(&mut samples) } else { Motion::ordinary(&mut samples) };
-        let p_y = motion.p_y().to_f64();
-        // Where the same motion comes back to y0: half a period less the way to the equator and back, with the impulse turned.
-        let k = (motion.k / motion.speed).to_f64();
-        let psi0 = (motion.psi0 / motion.speed).to_f64();
-        let time = match form {
-            2 => 2.0 * k,
-            3 => 4.0 * k,
-            _ => 4.0 * k - 2.0 * psi0,
-        };
-        let end = states(&motion, p_y, &[time])?[0];
-        worst.see(libm::sin(end[1] - motion.y0().to_f64()));
-        worst.see((end[2] + p_y) / motion.p.to_f64());
+/// A motion of one of the three kinds, oscillating, separatrix, rotating, in turn.
+fn of_kind(kind: u32, samples: &mut Samples) -> Motion {
+    match kind % 3 {
+        0 => Motion::ordinary(samples),
+        1 => Motion::posed(Body::ordinary(samples), Wide::ONE, Wide::ONE, wide(samples.even(0.05, 0.95))),
+        _ => Motion::ordinary_rotating(samples),
     }
-    Ok(worst.at_most(1e-12, "rounding of an integration"))
+}
+
+/// The time in which a motion closes; on the separatrix, which does not, one in which it leaves one equilibrium for the other.
+fn long_time(motion: &Motion) -> f64 {
+    let Body { a, b, c } = motion.body;
+    if motion.xi1 == Wide::ONE {
+        12.0 / (((b - a) * (c - b)).sqrt() * motion.p).to_f64()
+    } else {
+        4.0 * (motion.k / motion.speed).to_f64()
+    }
+}
+
+fn reflected(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut cases) = (Samples::new(412), Cases::default());
+    for case in 0..100 {
+        // Outside: separatrices and rotations.
+        let motion = of_kind(if form == 1 { 1 + case % 2 } else { 0 }, &mut samples);
+        let (p_y, end) = (motion.p_y().to_f64(), long_time(&motion));
+        let times: Vec<f64> = (0..=100).map(|i| f64::from(i) * end / 100.0).collect();
+        let path = states(&motion, p_y, &times)?;
+        // The image (y0, −p_y) is met only if p_y changes its sign; an oscillation is there a period less twice ψ0 after the start.
+        let turns = path.iter().any(|state| state[2] < 0.0);
+        let time = match form {
+            2 => 0.5 * end,
+            3 => end,
+            _ => end - 2.0 * (motion.psi0 / motion.speed).to_f64(),
+        };
+        let met = turns && {
+            let there = states(&motion, p_y, &[time])?[0];
+            let (off_y, off_p) = (libm::sin(there[1] - motion.y0().to_f64()), (there[2] + p_y) / motion.p.to_f64());
+            off_y.abs() < 1e-12 && off_p.abs() < 1e-12
+        };
+        cases.see(met, || {
+            let sign = if turns { "changes" } else { "keeps" };
+            format!("ξ1 = {}: p_y {sign} its sign", motion.xi1.to_f64())
+        });
+    }
+    Ok(cases.none())
+}
+
+fn reflected_in_y(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(414), Worst::default());
+    let pi = std::f64::consts::PI;
+    for case in 0..120 {
+        // From the crossing of the equator, which the mirror y → −y mod π keeps: the motion after a time and before it.
+        let motion = of_kind(case, &mut samples);
+        let ([a, b, c], p) = (motion.body.short(), motion.p.to_f64());
+        let p_y = p * ((b - a) * motion.xi1.to_f64() / (c - a)).sqrt();
+        let t = samples.even(0.05, 0.25) * long_time(&motion);
+        let at = |t: f64| trajectory(a, b, c, 0.5 * pi, p, p_y, &[t], 1e-16).map(|(states, _)| states[0]);
+        let (after, before) = (at(t).map_err(unexamined)?, at(-t).map_err(unexamined)?);
+        let mirror = match form {
+            1 => 0.5 * pi - before[1],
+            2 => before[1],
+            _ => pi - before[1],
+        };
+        worst.see(libm::sin(after[1] - mirror));
+        worst.see((after[2] - if form == 3 { -before[2] } else { before[2] }) / p);
+    }
+    Ok(worst.at_most(1e-12, "rounding of two integrations"))
 }
 
 fn all_cross_the_equator(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut cases) = (Samples::new(413), Cases::default());
     for case in 0..150 {
-        let motion =
-            if case % 2 == 0 { Motion::ordinary(&mut samples) } else { Motion::ordinary_rotating(&mut samples) };
-        let time = 2.0 * (motion.k / motion.speed).to_f64();
+        let motion = of_kind(case, &mut samples);
+        let time = 0.5 * long_time(&motion);
         let target = match form {
             1 => 0.0,
             2 => std::f64::consts::PI,
@@ -386,7 +435,7 @@ pub const ALL: &[Statement] = &[
             "rotations_are_monotone",
             PLACE,
             "For B p_x² < 2h < C p_x² the motion rotates: y grows (p_y > 0) for ever.",
-            BY_FLOW,
+            "power series of the flow (9), on a grid over two turns",
         ],
         &["as printed", "2h < B p_x²", "y falls"],
         rotations_are_monotone,
@@ -417,32 +466,35 @@ pub const ALL: &[Statement] = &[
     Statement {
         id: "reflected",
         place: "Proposition 3.1",
-        says: "All phase trajectories are symmetric with respect to the axes y = 0 and p_y = 0.",
-        method: "whether an integrated motion meets its mirror image (y0, −p_y)",
+        says: "All phase trajectories are symmetric with respect to the axis p_y = 0.",
+        method: "whether an integrated motion comes to the mirror image (y0, −p_y) of its start, over a period or from one equilibrium to the other",
         shape: Shape::OnlyWhen {
-            condition: "the motion oscillates; a rotation is mapped by p_y → −p_y to another rotation, the one in the other direction",
+            condition: "the motion oscillates; p_y → −p_y maps a rotation, and a separatrix, to another one, in the other direction",
         },
-        forms: &["oscillating", "rotating", "half a period", "a period"],
+        forms: &["oscillating", "rotating and separatrices", "half a period", "a period"],
         examine: reflected,
-        note: "The level set of H_a is symmetric in every case; a rotation is one of its two parts.",
+        note: "The level set of H_a is symmetric in every case; a rotation or a separatrix is one of its two parts.",
     },
+    direct(
+        [
+            "reflected_in_y",
+            "Proposition 3.1",
+            "All phase trajectories on the cylinder y mod π are symmetric with respect to the axis y = 0.",
+            "oscillations, separatrices and rotations integrated forward and backward from the equator, which the mirror keeps",
+        ],
+        &["as printed", "the axis y = π/4", "no mirror", "p_y turned too"],
+        reflected_in_y,
+        "",
+    ),
     direct(
         [
             "all_cross_the_equator",
             "after Proposition 3.1",
             "Every motion but those that rest crosses y = π/2 mod π: starts there are enough to have all.",
-            "sides of π/2 half a period apart, both kinds",
+            "sides of π/2 half a period apart, oscillations and rotations; on separatrices over a time long enough",
         ],
         &["as printed", "y = 0", "y = π"],
         all_cross_the_equator,
         "",
     ),
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_statement_has_the_expected_outcome() {
-        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
-    }
-}

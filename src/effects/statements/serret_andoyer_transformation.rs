@@ -4,7 +4,8 @@
 //! `R = exp(κA3) exp(IA1) exp(gA3) exp(JA1) exp(lA3)` and the momentum in space `G exp(κA3) exp(IA1) e3`; the article's `k` counts from the
 //! other node, `κ = k + π`.
 
-use super::bodies::{Body, Wide, by_differences, direct, exact, slope, wide};
+use super::bodies::{Body, by_differences, direct, exact};
+use super::differences::{Wide, slope_of_order_4, wide};
 use super::euler_angles::about_3;
 use super::euler_poinsot::{Matrix, bracket, chart_point, euler, kinetic, momentum, times, vector};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined};
@@ -84,23 +85,48 @@ fn second_impulse(form: Form) -> Result<Test, Unexamined> {
     })
 }
 
+/// Variables with `p2 sin Φ2 > 0`, or with `p2 sin Φ2 < 0`: the opposite of the sign of `sin g`.
+fn leaning(samples: &mut Samples, positive: bool) -> [Wide; 6] {
+    let mut x = variables(samples);
+    x[0] = if positive { -x[0].abs() } else { x[0].abs() };
+    x
+}
+
+/// An entry of the attitude that Φ1 decides, or Φ3, and what it is for the angles of section 2.4.
+fn outer_entry(samples: &mut Samples, x: [Wide; 6], form: Form, angle: impl Fn(Wide, Wide) -> Wide) -> [Wide; 3] {
+    let (r, _) = five_rotations(x);
+    let (cosine, lean) = printed_second(x);
+    let sine = ((Wide::ONE - cosine) * (Wide::ONE + cosine)).sqrt();
+    let [_, k, l, _, big_k, big_l] = x;
+    let (over_first, over_third) = (big_l - big_k * cosine, big_k - big_l * cosine);
+    let (first, third) = match form {
+        2 => (k + angle(over_third, lean), l + angle(over_first, lean)),
+        3 => (k - angle(over_first, lean), l - angle(over_third, lean)),
+        4 => (-(k + angle(over_first, lean)), -(l + angle(over_third, lean))),
+        _ => (k + angle(over_first, lean), l + angle(over_third, lean)),
+    };
+    // E3 = (sin Φ2 cos Φ1, sin Φ2 sin Φ1, cos Φ2), and e3 in the body (−sin Φ2 cos Φ3, sin Φ2 sin Φ3, cos Φ2).
+    let (left, right) = match samples.even(0.0, 4.0) as usize {
+        0 => (r[0][2], first.cos()),
+        1 => (r[1][2], first.sin()),
+        2 => (-r[2][0], third.cos()),
+        _ => (r[2][1], third.sin()),
+    };
+    [left, right * sine, Wide::ONE]
+}
+
 fn outer_angles(form: Form) -> Result<Test, Unexamined> {
     exact(303, |samples| {
+        let x = leaning(samples, form != 1);
+        outer_entry(samples, x, form, |over, lean| (over / lean).atan())
+    })
+}
+
+fn outer_angles_by_quadrant(form: Form) -> Result<Test, Unexamined> {
+    exact(315, |samples| {
         let x = variables(samples);
-        let (r, _) = five_rotations(x);
-        let (cosine, lean) = printed_second(x);
-        let sine = ((Wide::ONE - cosine) * (Wide::ONE + cosine)).sqrt();
-        let [_, k, l, _, big_k, big_l] = x;
-        let angle = |over: Wide| if form == 0 { (over / lean).atan() } else { over.atan2(lean) };
-        let (over_first, over_third) = (big_l - big_k * cosine, big_k - big_l * cosine);
-        let (first, third) = match form {
-            2 => (k + angle(over_third), l + angle(over_first)),
-            3 => (k - angle(over_first), l - angle(over_third)),
-            _ => (k + angle(over_first), l + angle(over_third)),
-        };
-        // E3 = (sin Φ2 cos Φ1, sin Φ2 sin Φ1, cos Φ2), and e3 in the body (−sin Φ2 cos Φ3, sin Φ2 sin Φ3, cos Φ2).
-        let (left, right) = if samples.sign() > 0.0 { (r[0][2], first.cos()) } else { (-r[2][0], third.cos()) };
-        [left, right * sine, Wide::ONE]
+        // The first wrong form is the principal value.
+        outer_entry(samples, x, form, |over, lean| if form == 1 { (over / lean).atan() } else { over.atan2(lean) })
     })
 }
 
@@ -129,7 +155,7 @@ fn symplectic(form: Form) -> Result<Test, Unexamined> {
                 let (sine, cosine) = change.sin_cos();
                 if component < 3 { wide(2.0) * sine / (Wide::ONE + cosine) } else { change }
             };
-            slope(along, x[index], 1e-6)
+            slope_of_order_4(along, x[index], 1e-6)
         };
         let lagrange = (0..3).fold(Wide::ZERO, |sum, a| sum + by(i, a) * by(j, a + 3) - by(i, a + 3) * by(j, a));
         let expected = match (i, j) {
@@ -187,8 +213,8 @@ fn metric_8(form: Form) -> Result<Test, Unexamined> {
     by_differences(308, |samples| {
         let (body, [_, _, y, ..], p) = (Body::any(samples), variables(samples), vector(samples));
         // The velocity of the momenta, by difference quotients of (7); its length must be twice the energy.
-        let dx = slope(|x| body.energy(y, x, p[1]), p[0], 1e-5);
-        let dy = slope(|x| body.energy(y, p[0], x), p[1], 1e-5);
+        let dx = slope_of_order_4(|x| body.energy(y, x, p[1]), p[0], 1e-5);
+        let dy = slope_of_order_4(|x| body.energy(y, p[0], x), p[1], 1e-5);
         let (sine, cosine) = y.sin_cos();
         let z = wide(2.0) * (body.a * sine * sine + body.b * cosine * cosine);
         let rest = wide(2.0) * body.c - z;
@@ -353,11 +379,35 @@ pub const ALL: &[Statement] = &[
         place: PLACE,
         says: "Φ1 = k + arctan((L − K cos Φ2)/(p2 sin Φ2)), Φ3 = l + arctan((K − L cos Φ2)/(p2 sin Φ2)).",
         method: ROTATIONS,
-        shape: Shape::Slip { correction: "the arctangents in the quadrant of numerator and denominator" },
-        forms: &["principal values", "in the quadrant", "K and L exchanged", "k − arctan, l − arctan"],
+        shape: Shape::OnlyWhen { condition: "p2 sin Φ2 > 0; else the principal value is off by π" },
+        forms: &[
+            "p2 sin Φ2 > 0",
+            "p2 sin Φ2 < 0",
+            "K and L exchanged",
+            "k − arctan, l − arctan",
+            "the signs of both angles",
+        ],
         examine: outer_angles,
-        note: "The principal value is off by π wherever p2 sin Φ2 < 0.",
+        note: "",
     },
+    direct(
+        [
+            "outer_angles_by_quadrant",
+            "beyond the article, section 2.4",
+            "Φ1 is k plus the angle of the point (p2 sin Φ2, L − K cos Φ2), Φ3 is l plus that of (p2 sin Φ2, K − L cos Φ2): arctangents in \
+             the quadrant of numerator and denominator hold everywhere.",
+            ROTATIONS,
+        ],
+        &[
+            "derived here",
+            "principal values",
+            "K and L exchanged",
+            "k − arctan, l − arctan",
+            "the signs of both angles",
+        ],
+        outer_angles_by_quadrant,
+        "",
+    ),
     direct(
         [
             "symplectic",
@@ -469,11 +519,3 @@ pub const ALL: &[Statement] = &[
         "",
     ),
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_statement_has_the_expected_outcome() {
-        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
-    }
-}

@@ -6,7 +6,8 @@
 //! Here the differential identities, at random instants that need no closed form; the Jacobi functions are in `spin_closed_form_regimes`, what
 //! follows for conjugate times, against integration, in `spin_conjugate_times`.
 
-use super::spin_points::{ALGEBRA, POINTS, QUOTIENT, Wide, anisotropy, cross, dot, reason, slopes, wide};
+use super::differences::{Wide, slopes_of_order_2, wide};
+use super::spin_points::{ALGEBRA, POINTS, QUOTIENT, anisotropy, cross, dot, reason};
 use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
 use crate::numerics::real::Real;
@@ -139,7 +140,7 @@ const BETA: Statement = Statement {
             let h = change(&at);
             let omega = [h[0] / (wide(2.0) * k2), Wide::ZERO, h[2] / wide(2.0)];
             let turned = cross(omega, h);
-            let rates = slopes(
+            let rates = slopes_of_order_2(
                 |s| {
                     let mut after = at.moved(s);
                     if form == 2 {
@@ -175,7 +176,8 @@ const NODE_ANGLE: Statement = Statement {
                 3 => -at.node_rate(),
                 _ => at.node_rate(),
             };
-            let found = slopes(|s| Instant { lambda: at.lambda + s * rate, ..at.moved(s) }.position(), Wide::ZERO);
+            let found =
+                slopes_of_order_2(|s| Instant { lambda: at.lambda + s * rate, ..at.moved(s) }.position(), Wide::ZERO);
             let expected = cross(at.velocity(), at.position());
             let size = at.casimir() + dot(at.velocity(), at.velocity()).sqrt() + at.node_rate();
             (0..3).for_each(|i| worst.see(((found[i] - expected[i]) / size).to_f64()));
@@ -229,7 +231,7 @@ const PHASE_RATE: Statement = Statement {
             let k2 = if form == 4 { Wide::ONE } else { at.k * at.k };
             let printed = wide(2.0) * power * at.ellipse() * at.delta.squared() / (k2 * (a * a + b * b));
             let size = at.node_rate().max(printed);
-            let [found] = slopes(|s| [phase(s)], Wide::ZERO);
+            let [found] = slopes_of_order_2(|s| [phase(s)], Wide::ZERO);
             worst.see(((found - printed) / size).to_f64());
         }
         Ok(worst
@@ -288,16 +290,8 @@ fn any_start(form: Form) -> Result<Test, Unexamined> {
         let length = if form == 2 { g2 } else { g2.sqrt() };
         let expected = length * product / across2;
         let size = expected.abs() + dot(w, w).sqrt();
-        worst.see(((slopes(turned, Wide::ZERO)[0] - expected) / size).to_f64());
+        worst.see(((slopes_of_order_2(turned, Wide::ZERO)[0] - expected) / size).to_f64());
         worst.see(expected.min(Wide::ZERO).to_f64());
     }
     Ok(worst.at_most(QUOTIENT, reason(QUOTIENT)))
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
 }

@@ -4,7 +4,8 @@
 //! cancellation does not matter. Each line is held against its definition: β against the pendulum by difference quotients in t, δβ against the derivative
 //! of β by p_θ, λ against G/(2P).
 
-use super::spin_points::{POINTS, QUOTIENT, Wide, reason, slopes, wide};
+use super::differences::{Wide, slopes_of_order_2, wide};
+use super::spin_points::{POINTS, QUOTIENT, reason};
 use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
 use crate::numerics::elliptic::incomplete::incomplete_pi;
@@ -229,7 +230,7 @@ fn pendulum(seed: u64, regime: Regime, form: Form) -> Result<Test, Unexamined> {
         let (k, b) = (closed.k, closed.p / (closed.k + closed.k));
         let w2 = (k - Wide::ONE) * (k + Wide::ONE) / (k * k);
         let [sine, cosine, rate] = closed.pendulum(t, form);
-        let [sine_rate, cosine_rate] = slopes(
+        let [sine_rate, cosine_rate] = slopes_of_order_2(
             |t| {
                 let [sine, cosine, _] = closed.pendulum(t, form);
                 [sine, cosine]
@@ -255,7 +256,7 @@ fn variation(seed: u64, regime: Regime, form: Form) -> Result<Test, Unexamined> 
             let [s1, c1, rate] = Closed::new(closed.k, closed.p * (Wide::ONE + s)).pendulum(t, 0);
             [(s1 * cosine - c1 * sine).atan2(c1 * cosine + s1 * sine), rate]
         };
-        let expected = slopes(turned, Wide::ZERO).map(|slope| slope / closed.p);
+        let expected = slopes_of_order_2(turned, Wide::ZERO).map(|slope| slope / closed.p);
         let found = closed.variation(t, form);
         let size = expected[0].abs() + expected[1].abs() / closed.scale;
         worst.see(((found[0] - expected[0]) / size).to_f64());
@@ -269,7 +270,7 @@ fn node_angle(seed: u64, regime: Regime, form: Form) -> Result<Test, Unexamined>
     for (closed, t) in Closed::all(seed, regime) {
         let [sine, cosine, _] = closed.pendulum(t, 0);
         let expected = closed.casimir() / (wide(2.0) * (cosine.squared() + (closed.k * sine).squared()));
-        let [found] = slopes(|t| [closed.node_angle(t, form)], t);
+        let [found] = slopes_of_order_2(|t| [closed.node_angle(t, form)], t);
         worst.see(((found - expected) / expected).to_f64());
         worst.see(closed.node_angle(Wide::ZERO, form).to_f64());
     }
@@ -367,11 +368,3 @@ pub const ALL: &[Statement] = &[
         |form| node_angle(529, Oscillating, form),
     ),
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -2,8 +2,10 @@
 //!
 //! Elementary where m = 1 or m = 0; each line against its differential equations by difference quotients, or against integration.
 
+use super::differences::{Wide, slopes_of_order_2, wide};
 use super::spin_closed_form_regimes::random_starts;
-use super::spin_points::{POINTS, QUOTIENT, Wide, reason, slopes, wide};
+use super::spin_points::{POINTS, QUOTIENT, reason};
+use super::spin_trajectories::travelled;
 use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::spin::lift::first_conjugate_time_by_integration;
@@ -57,7 +59,7 @@ const SEPARATRIX_BETA: Statement = Statement {
             let (s, c) = at.hyperbolic(at.t);
             let rate = at.w * if form == 1 { c * c } else { c };
             let cosine = if form == 2 { s } else { c };
-            let [sine_rate] = slopes(|t| [at.hyperbolic(t).0], at.t);
+            let [sine_rate] = slopes_of_order_2(|t| [at.hyperbolic(t).0], at.t);
             // b = w when p_θ = 2√(k² − 1).
             worst.see(((rate * rate - stiffness * (Wide::ONE - s * s)) / stiffness).to_f64());
             worst.see(((sine_rate - cosine * rate) / at.w).to_f64());
@@ -85,7 +87,7 @@ const SEPARATRIX_VARIATION: Statement = Statement {
                     (if form == 1 { -(c * u) } else { c * u }, if form == 2 { -(s * c * u) } else { s * c * u });
                 [(linear + s / c) / (four_k * at.w), ((Wide::ONE + c * c) / c - mixed) / four_k]
             };
-            let ([delta, delta_rate], rates) = (values(at.t), slopes(values, at.t));
+            let ([delta, delta_rate], rates) = (values(at.t), slopes_of_order_2(values, at.t));
             let (s, c) = at.hyperbolic(at.t);
             let size = at.w * (delta.abs() * at.w + delta_rate.abs());
             worst.see(((rates[0] - delta_rate) * at.w / size).to_f64());
@@ -114,7 +116,7 @@ const SEPARATRIX_ANGLE: Statement = Statement {
             };
             let (s, c) = at.hyperbolic(at.t);
             let expected = at.k / (c * c + (at.k * s).squared());
-            worst.see(((slopes(value, at.t)[0] - expected) / expected).to_f64());
+            worst.see(((slopes_of_order_2(value, at.t)[0] - expected) / expected).to_f64());
         }
         Ok(worst.at_most(QUOTIENT, reason(QUOTIENT)))
     },
@@ -125,13 +127,17 @@ const ROUND_PHASE: Statement = Statement {
     id: "spin_round_phase",
     place: PLACE,
     says: "For k = 1: β = p_θ t/2, λ = Gt/2, and A : B = s : 1 with s = Gt/2, so that Θ = s − arctan s.",
-    method: "δβ = t/2, δβ' = 1/2 put into A = 2G δβ, B = G² δβ' − p_θ β', random p_θ and t",
+    method: "δβ = t/2, δβ' = 1/2 put into A = 2G δβ, B = G² δβ' − p_θ β'; at the first conjugate time by integration Θ = π, and β by the momentum \
+             (2 sin β, −p_θ, 2 cos β) there; random p_θ",
     shape: Shape::Direct,
-    forms: &["derived here", "s = Gt", "s = t", "s = p_θ t/2"],
+    forms: &["derived here", "s = Gt", "s = t", "s = p_θ t/2", "β = p_θ t"],
     examine: |form| {
         let (mut samples, mut worst) = (Samples::new(564), Worst::default());
         for _ in 0..POINTS {
-            let (p, t, two) = (wide(samples.log(1e-3, 1e3)), wide(samples.log(1e-3, 10.0)), wide(2.0));
+            let (p, two) = (samples.log(1e-2, 1e2), wide(2.0));
+            let (first, _) = first_conjugate_time_by_integration(1.0, p, 1e-15, 10.0).map_err(unexamined)?;
+            let [.., h1, _, h3] = travelled(1.0, p, -2.0, first.t1)?;
+            let (p, t) = (wide(p), wide(first.t1));
             let g = (p * p + wide(4.0)).sqrt();
             let (a, b) = (two * g * t / two, g * g / two - p * p / two);
             let s = match form {
@@ -141,8 +147,12 @@ const ROUND_PHASE: Statement = Statement {
                 _ => g * t / two,
             };
             worst.see((a / b / s - Wide::ONE).to_f64());
+            worst.see(((s - s.atan()) / Wide::PI - Wide::ONE).to_f64());
+            let (sine, cosine) = (if form == 4 { p * t } else { p * t / two }).sin_cos();
+            worst.see(0.5 * h1 - sine.to_f64());
+            worst.see(0.5 * h3 - cosine.to_f64());
         }
-        Ok(worst.at_most(1e-20, "double-double; up to six digits cancel in B"))
+        Ok(worst.at_most(1e-12, "rounding of the integration"))
     },
     note: "",
 };
@@ -182,12 +192,4 @@ fn one_integral(form: Form) -> Result<Test, Unexamined> {
         worst.see(if turns > 0.5 && turns < 1.5 { 0.0 } else { 1.0 });
     }
     Ok(worst.at_most(1e-12, "rounding of the integration, times the growth of the flow"))
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
 }

@@ -3,8 +3,8 @@
 //! Returns to the equator, the cut point, the first conjugate time and all others up to a time: λ, β and Θ in closed form, in double-double, at instants
 //! that integration of the lift (with its Jacobi field) finds.
 
+use super::differences::{Wide, wide};
 use super::spin_closed_form_regimes::{Closed, random_starts};
-use super::spin_points::{Wide, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::spin::lift::{
@@ -192,11 +192,3 @@ const HALF_TURNS: Statement = Statement {
     },
     note: "",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -3,9 +3,9 @@
 //! Curvature by Brioschi's formula from the printed coefficients in (φ, θ), that is without isothermal coordinates. Conjugate points and
 //! returns to the equator by integration of the lift.
 
-use super::spin_points::{
-    ALGEBRA, ChartPoint, QUOTIENT, Wide, anisotropy, at_chart_points, chart_points, gap, reason, slope, slopes, wide,
-};
+use super::differences::{Wide, slope_of_order_2, slopes_of_order_2, wide};
+use super::spin_points::{ChartPoint, QUOTIENT, anisotropy, chart_points, gap, reason};
+use super::spin_trajectories::travelled;
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::spin::lift::{equator_crossings, first_conjugate_time_by_integration};
@@ -49,8 +49,8 @@ const ISOTHERMAL: Statement = Statement {
     examine: |form| {
         let mut worst = Worst::default();
         for point in chart_points(451) {
-            let along_phi = slopes(|phi| plane(&ChartPoint { phi, ..point }), point.phi);
-            let along_theta = slopes(|theta| plane(&ChartPoint { theta, ..point }), point.theta);
+            let along_phi = slopes_of_order_2(|phi| plane(&ChartPoint { phi, ..point }), point.phi);
+            let along_theta = slopes_of_order_2(|theta| plane(&ChartPoint { theta, ..point }), point.theta);
             let lambda = lambda(point.k, plane(&point), form);
             let product = |a: [Wide; 2], b: [Wide; 2]| lambda * (a[0] * b[0] + a[1] * b[1]);
             let [e, f, g] = coefficients(&point);
@@ -99,8 +99,8 @@ fn determinant(m: [[Wide; 3]; 3]) -> Wide {
 fn brioschi(point: &ChartPoint) -> Wide {
     let metric = |a: Wide, b: Wide| coefficients(&ChartPoint { phi: point.phi + a, theta: point.theta + b, ..*point });
     let [e, f, g] = metric(Wide::ZERO, Wide::ZERO);
-    let [eu, fu, gu] = slopes(|a| metric(a, Wide::ZERO), Wide::ZERO);
-    let [ev, fv, gv] = slopes(|b| metric(Wide::ZERO, b), Wide::ZERO);
+    let [eu, fu, gu] = slopes_of_order_2(|a| metric(a, Wide::ZERO), Wide::ZERO);
+    let [ev, fv, gv] = slopes_of_order_2(|b| metric(Wide::ZERO, b), Wide::ZERO);
     let [uu, vv, uv] = second_slopes(metric);
     let half = wide(0.5);
     let corner = uv[1] - half * vv[0] - half * uu[2];
@@ -173,7 +173,7 @@ const NEGATIVE: Statement = Statement {
     says: "G is strictly negative in each open hemisphere, for every k.",
     method: "the sign of Brioschi's curvature at random points off equator and poles; close to them that of the formula it confirms",
     shape: Shape::Direct,
-    forms: &["as printed", "positive at the poles", "above −1/2 for large k"],
+    forms: &["as printed", "below −1 − k² everywhere", "above −1/2 for large k"],
     examine: |form| {
         let mut cases = Cases::default();
         let calm: Vec<_> = calm_points(454).map(|point| (point, brioschi(&point))).collect();
@@ -181,7 +181,7 @@ const NEGATIVE: Statement = Statement {
         for (point, curvature) in calm.into_iter().chain(close) {
             let curvature = curvature.to_f64();
             let holds = match form {
-                1 => curvature < 0.0 && (point.phi.sin().abs().to_f64() > 0.3 || curvature > 0.0),
+                1 => curvature < -1.0 - point.k.to_f64() * point.k.to_f64(),
                 2 => point.k.to_f64() < 2.0 || curvature > -0.5,
                 _ => curvature < 0.0,
             };
@@ -206,7 +206,7 @@ const SUPREMUM: Statement = Statement {
             let k2 = k * k;
             let top = -Wide::ONE - if form == 1 { k2 } else { Wide::ONE / k2 };
             worst.see(gap(printed_curvature(k, [Wide::ZERO; 2], 0), top));
-            worst.see(slope(|x| printed_curvature(k, [x, Wide::ZERO], 0), Wide::ZERO).to_f64());
+            worst.see(slope_of_order_2(|x| printed_curvature(k, [x, Wide::ZERO], 0), Wide::ZERO).to_f64());
             let (st, ct) = theta.sin_cos();
             let scaled = |r2: f64| {
                 let r2 = wide(r2);
@@ -266,22 +266,26 @@ const NO_CONJUGATE_BEFORE: Statement = Statement {
 const SYMMETRIC_PAIR: Statement = Statement {
     id: "spin_symmetric_pair",
     place: "Lemma 4.4, proof",
-    says: "The two extremals with p_φ(0) = ±2 and the same p_θ meet on the equator, at the same time: at the first return of either.",
-    method: "Hamilton's equations: the image (π − φ, −p_φ) of the lift's trajectory is the other extremal, and it meets it where r2 = 0; by the momentum, at random covectors",
+    says: "The two extremals with p_φ(0) = ±2 and the same p_θ meet on the equator, at the same time: at the first return of either, and not before.",
+    method: "both integrated to the first return of one of them and to a random time before, random k and p_θ",
     shape: Shape::Direct,
-    forms: &["as printed", "with the opposite p_θ", "meeting on the meridian r3 = 0"],
+    forms: &["as printed", "with the opposite p_θ", "meeting on the meridian r3 = 0", "after half the time"],
     examine: |form| {
-        Ok(at_chart_points(458, ALGEBRA, |point| {
-            // The reflection r2 → −r2 acts on the pseudovector h by (h1, h2, h3) → (−h1, h2, −h3): H and G are kept.
-            let reflected = ChartPoint { phi: Wide::PI - point.phi, p_phi: -point.p_phi, ..*point };
-            let reflected = if form == 1 { ChartPoint { p_theta: -point.p_theta, ..reflected } } else { reflected };
-            let ([a1, a2, a3], [b1, b2, b3]) = (point.momentum(), reflected.momentum());
-            let ([.., r3], [_, s2, s3]) = (point.position(), reflected.position());
-            let r2 = point.position()[1];
-            let meets = if form == 2 { r3 + s3 } else { r2 + s2 };
-            let mismatch = (a1 + b1).abs() + (a2 - b2).abs() + (a3 + b3).abs() + meets.abs();
-            (Wide::ONE + mismatch, Wide::ONE)
-        }))
+        let (mut samples, mut worst) = (Samples::new(458), Worst::default());
+        for (k, p) in starts(458, 60) {
+            let (returns, _) = equator_crossings(k, p, TOLERANCE, long(k), 1).map_err(unexamined)?;
+            let time = returns.first().ok_or_else(|| unexamined("no return"))?.time;
+            let time = if form == 3 { 0.5 * time } else { time };
+            let pair = |t: f64| -> Result<[[f64; 6]; 2], Unexamined> {
+                Ok([travelled(k, p, -2.0, t)?, travelled(k, if form == 1 { -p } else { p }, 2.0, t)?])
+            };
+            let [down, up] = pair(time)?;
+            (0..3).for_each(|i| worst.see(down[i] - up[i]));
+            worst.see(if form == 2 { down[2] } else { down[1] });
+            let [down, up] = pair(samples.even(0.01, 0.99) * time)?;
+            worst.see(if down[1] * up[1] < 0.0 { 0.0 } else { 1.0 });
+        }
+        Ok(worst.at_most(1e-12, "rounding of the integrations"))
     },
     note: "",
 };
@@ -320,12 +324,4 @@ fn cut_locus(form: Form) -> Result<Test, Unexamined> {
         cases.see((before - end).abs() < 0.01, || format!("k = {k:?}: θ ends at {before:?}"));
     }
     Ok(cases.none())
-}
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
 }

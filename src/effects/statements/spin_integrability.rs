@@ -3,11 +3,9 @@
 //! Brackets and pull-backs by difference quotients. The article stops at the equation Φ' = √R(Φ); here it is solved: `R(z) = 1 − k² − z²`, so that
 //! Φ is a sine, u and v are elliptic coordinates of the plane (x, y), and the metric separates in closed form.
 
+use super::differences::{Wide, slope_of_order_2, slope_of_quadratic, slopes_of_order_2, wide};
 use super::spin_metric::printed_hamiltonian;
-use super::spin_points::{
-    ALGEBRA, ChartPoint, POINTS, QUOTIENT, Wide, at_chart_points, chart_points, dot, gap, reason, slope,
-    slope_of_quadratic, slopes, wide,
-};
+use super::spin_points::{ALGEBRA, ChartPoint, POINTS, QUOTIENT, at_chart_points, chart_points, dot, gap, reason};
 use super::statement::{Form, Samples, Shape, Statement, Worst};
 use crate::numerics::real::Real;
 
@@ -77,8 +75,8 @@ const CASIMIR: Statement = Statement {
 fn relative_bracket(point: &ChartPoint, f: impl Fn(&ChartPoint) -> Wide, g: impl Fn(&ChartPoint) -> Wide) -> f64 {
     let gradient = |f: &dyn Fn(&ChartPoint) -> Wide| -> [Wide; 4] {
         [
-            slope(|theta| f(&ChartPoint { theta, ..*point }), point.theta),
-            slope(|phi| f(&ChartPoint { phi, ..*point }), point.phi),
+            slope_of_order_2(|theta| f(&ChartPoint { theta, ..*point }), point.theta),
+            slope_of_order_2(|phi| f(&ChartPoint { phi, ..*point }), point.phi),
             slope_of_quadratic(|p_theta| f(&ChartPoint { p_theta, ..*point }), point.p_theta),
             slope_of_quadratic(|p_phi| f(&ChartPoint { p_phi, ..*point }), point.p_phi),
         ]
@@ -152,8 +150,8 @@ const ISOTHERMAL_INTEGRAL: Statement = Statement {
                 let [r1, _, r3] = point.position();
                 [r1, point.k * r3]
             };
-            let along_theta = slopes(|theta| plane(ChartPoint { theta, ..point }), point.theta);
-            let along_phi = slopes(|phi| plane(ChartPoint { phi, ..point }), point.phi);
+            let along_theta = slopes_of_order_2(|theta| plane(ChartPoint { theta, ..point }), point.theta);
+            let along_phi = slopes_of_order_2(|phi| plane(ChartPoint { phi, ..point }), point.phi);
             // The covector p_x dx + p_y dy in the chart.
             let integral = |p: [Wide; 2]| {
                 round(&ChartPoint { p_theta: dot(p, along_theta), p_phi: dot(p, along_phi), ..point }, 0)
@@ -215,7 +213,7 @@ const NORMAL_COORDINATES: Statement = Statement {
     examine: |form| {
         let mut worst = Worst::default();
         for (k, w) in normal_points(446) {
-            let rate = slopes(|u| normal_map(k, [u, w[1]], form), w[0]);
+            let rate = slopes_of_order_2(|u| normal_map(k, [u, w[1]], form), w[0]);
             let (square, expected) = (times(rate, rate), r_of(k, normal_map(k, w, form)));
             let size = dot(square, square).sqrt();
             (0..2).for_each(|i| worst.see(((square[i] - expected[i]) / size).to_f64()));
@@ -236,7 +234,7 @@ const LIOUVILLE: Statement = Statement {
     examine: |form| {
         let mut worst = Worst::default();
         for (k, w) in normal_points(447) {
-            let rate = slopes(|u| normal_map(k, [u, w[1]], 0), w[0]);
+            let rate = slopes_of_order_2(|u| normal_map(k, [u, w[1]], 0), w[0]);
             let [x, y] = normal_map(k, w, 0);
             let k2 = k * k;
             let pulled = dot(rate, rate) / (Wide::ONE - x * x - y * y / k2);
@@ -251,11 +249,3 @@ const LIOUVILLE: Statement = Statement {
     },
     note: "Not in the article, which says only that such a form exists.",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -3,7 +3,7 @@
 //! On the meridian β = 0, λ = t, and the phase of the closed form is elementary: `Θ = t − arg(w cos wt + i sin wt)` for k > 1, `w² = 1 − 1/k²`, and
 //! `Θ = t − arg(l cosh lt + i sinh lt)` for k < 1, `l² = 1/k² − 1`; the cusp is at `r = (cos t1, sin t1, 0)`.
 
-use super::spin_points::{Wide, wide};
+use super::differences::{Wide, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::spin::conjugate::first_conjugate_point;
@@ -201,14 +201,18 @@ const CUSP_BELOW_ONE: Statement = Statement {
     place: "section 5.2.3",
     says: "For every k < 1 the cusp does not cross the equator: π < t1 < x for p_θ → 0, x the first positive root of tan x = x, so that it stays between the antipode of the start and \
            the cusp of k = 1.",
-    method: "first conjugate points in closed form at p_θ = 0 for random k down to 1e-4",
+    method: "first conjugate points in closed form at p_θ = 0 for random k, half of them evenly in the logarithm down to 1e-4, half close to 1",
     shape: Shape::Direct,
     forms: &["as printed, with the bounds derived here", "for k > 1 too", "below 5π/4"],
     examine: |form| {
         let (mut samples, mut cases) = (Samples::new(536), Cases::default());
         let x = tangent_root()?.to_f64();
-        for _ in 0..150 {
-            let k = if form == 1 { samples.log(1.01, 3.0) } else { 1.0 - samples.log(1e-6, 0.9999) };
+        for case in 0..150 {
+            let k = match (form, case % 2) {
+                (1, _) => samples.log(1.01, 3.0),
+                (_, 0) => samples.log(1e-4, 1.0),
+                _ => 1.0 - samples.log(1e-6, 0.9999),
+            };
             let start = Start::new(k, 0.0).map_err(unexamined)?;
             let point = first_conjugate_point(&start).map_err(unexamined)?;
             let high = if form == 2 { 1.25 * f64::PI } else { x };
@@ -298,11 +302,3 @@ const LARGE_K: Statement = Statement {
     },
     note: "",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -4,10 +4,11 @@
 //! `H2 = −√(I1 I3) α'` with the Casimir; Φ1 against (32) by difference quotients of the third kind; Φ2 and Φ3 against (4), α' by difference quotients.
 //! All in double-double, m and 1 − m down to 1e-8, I1/I3 from 1 ± 1e-6 to 100 and its inverse.
 
-use super::spin_points::{POINTS, QUOTIENT, Wide, reason, slope, wide};
+use super::differences::{Wide, slope_of_order_2, wide};
+use super::spin_points::{POINTS, QUOTIENT, reason};
 use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
-use crate::numerics::elliptic::incomplete::incomplete_pi;
+use crate::numerics::elliptic::incomplete::{incomplete_f, incomplete_pi};
 use crate::numerics::elliptic::jacobi::Jacobi;
 use crate::numerics::real::Real;
 
@@ -54,6 +55,8 @@ pub(super) struct Case {
     pub(super) rate: Wide,
     /// The argument.
     pub(super) u: Wide,
+    /// The sign of the root that gives the other of cos α, sin α: which way α goes.
+    pub(super) side: Wide,
 }
 
 impl Case {
@@ -71,8 +74,15 @@ impl Case {
             let omega = (gap / (i1 * i3)).sqrt();
             let (casimir, rate) =
                 if regime.oscillating() { (small + m * gap, omega) } else { (small + gap / m, omega / m.sqrt()) };
-            Self { regime, i1, i3, casimir, m, mc: Wide::ONE - m, rate, u: wide(samples.even(-6.0, 6.0)) }
+            let (u, side) = (wide(samples.even(-6.0, 6.0)), wide(samples.sign()));
+            Self { regime, i1, i3, casimir, m, mc: Wide::ONE - m, rate, u, side }
         })
+    }
+
+    /// In the third case the oscillation about α = π/2, or, turned, about −π/2; the other cases as they are.
+    fn about(self, turned: bool) -> Self {
+        let side = if turned { -Wide::ONE } else { Wide::ONE };
+        if self.regime == OscillatingAbove { Self { side, ..self } } else { self }
     }
 
     pub(super) fn jacobi(&self, u: Wide) -> Jacobi<Wide> {
@@ -84,10 +94,10 @@ impl Case {
         let Jacobi { sn, cn, dn, .. } = self.jacobi(u);
         let root = self.m.sqrt();
         match self.regime {
-            OscillatingBelow => (root * sn, dn),
-            RotatingBelow => (sn, cn),
-            OscillatingAbove => (dn, -(root * sn)),
-            RotatingAbove => (-cn, sn),
+            OscillatingBelow => (root * sn, self.side * dn),
+            RotatingBelow => (sn, self.side * cn),
+            OscillatingAbove => (self.side * dn, -(root * sn)),
+            RotatingAbove => (-cn, self.side * sn),
         }
     }
 
@@ -98,7 +108,7 @@ impl Case {
             let (s, c) = self.direction(u);
             (s * cosine - c * sine).atan2(c * cosine + s * sine)
         };
-        self.rate * slope(turned, self.u)
+        self.rate * slope_of_order_2(turned, self.u)
     }
 
     /// The momentum.
@@ -109,7 +119,8 @@ impl Case {
     }
 }
 
-/// The printed line for α. Forms: as printed; the parameter's numerator with the other moment; the frequency without its root; cn for sn (sn for cn).
+/// The printed line for α, with its ψ0. Forms: as printed; the complementary parameter; the frequency without its root; cn for sn (sn for cn); the printed
+/// square of the last case; the sign.
 fn alpha(regime: Regime, form: Form) -> Result<Test, Unexamined> {
     let mut worst = Worst::default();
     for case in Case::all(481, regime) {
@@ -117,7 +128,6 @@ fn alpha(regime: Regime, form: Form) -> Result<Test, Unexamined> {
         let m_used = match form {
             // For the last case: the printed m² = (I1 − I3)/(G² − I3).
             4 => m.sqrt(),
-            // I1 and I3 exchanged in the parameter: brought into (0, 1).
             1 => mc,
             _ => m,
         };
@@ -130,15 +140,16 @@ fn alpha(regime: Regime, form: Form) -> Result<Test, Unexamined> {
         let value = |u: Wide| {
             let at = Jacobi::new(u, m_used, Wide::ONE - m_used);
             let (first, second) = if other { (at.cn, at.sn) } else { (at.sn, at.cn) };
-            match regime {
+            let printed = match regime {
                 OscillatingBelow => m_used.sqrt() * first,
                 RotatingBelow => first,
                 OscillatingAbove => -(m_used.sqrt() * first),
                 RotatingAbove => -second,
-            }
+            };
+            if form == 5 { -printed } else { printed }
         };
         // x is sin α, or cos α in the third case; x'² = (1 − x²) α'².
-        let (x, x_rate) = (value(u), rate * slope(value, u));
+        let (x, x_rate) = (value(u), rate * slope_of_order_2(value, u));
         let square = x * x;
         let (sine2, cosine2) =
             if regime == OscillatingAbove { (Wide::ONE - square, square) } else { (square, Wide::ONE - square) };
@@ -146,10 +157,12 @@ fn alpha(regime: Regime, form: Form) -> Result<Test, Unexamined> {
         // What the largest α'² allows.
         let size = (casimir - i1.min(i3)) / (i1 * i3);
         worst.see(((x_rate * x_rate - right) / size).to_f64());
-        if other {
-            // cn is sn a quarter period later wherever the square alone is seen at m → 0: the start tells them apart.
-            worst.see((value(Wide::ZERO) - if regime == RotatingAbove { -Wide::ONE } else { Wide::ZERO }).to_f64());
-        }
+        // The equation for α'² does not know the sign, nor sn from cn: the start does, with the printed ψ0 of a start of either sign.
+        let part = libm::sin(u.to_f64());
+        let start = wide(part) * if regime.oscillating() { m.sqrt() } else { Wide::ONE };
+        let sine = if regime == OscillatingAbove { -part } else { part };
+        let amplitude = if regime == RotatingAbove { libm::acos(-part) } else { libm::asin(sine) };
+        worst.see((value(incomplete_f(wide(amplitude), m, mc)) - start).to_f64());
     }
     Ok(worst.at_most(QUOTIENT, reason(QUOTIENT)))
 }
@@ -171,7 +184,7 @@ fn first_angle(regime: Regime, form: Form) -> Result<Test, Unexamined> {
         let weight = if form == 1 { -weight } else { weight };
         let third_kind = |u: Wide| incomplete_pi(case.jacobi(u).am, n, Wide::ONE - n, m, mc);
         let front = casimir.sqrt() / if form == 2 { i1 } else { i3 };
-        let printed = front * (Wide::ONE + weight * rate * slope(third_kind, u));
+        let printed = front * (Wide::ONE + weight * rate * slope_of_order_2(third_kind, u));
         let [h1, h2, _] = case.momentum();
         let rate = casimir.sqrt() * h1 * h1 / (i1 * (h1 * h1 + h2 * h2));
         worst.see(((printed - rate) / front).to_f64());
@@ -180,9 +193,9 @@ fn first_angle(regime: Regime, form: Form) -> Result<Test, Unexamined> {
 }
 
 /// The printed line for Φ2. Forms: as printed; I3 without its root; I1 in the place of I3; the sign.
-fn second_angle(regime: Regime, form: Form) -> Result<Test, Unexamined> {
+fn second_angle(regime: Regime, form: Form, turned: bool) -> Result<Test, Unexamined> {
     let mut worst = Worst::default();
-    for case in Case::all(483, regime) {
+    for case in Case::all(483, regime).map(|case| case.about(turned)) {
         let Jacobi { sn, cn, dn, .. } = case.jacobi(case.u);
         let (moment, length) = (if form == 2 { case.i1 } else { case.i3 }, case.casimir.sqrt());
         let scale = if form == 1 { moment } else { moment.sqrt() } / length;
@@ -202,9 +215,9 @@ fn second_angle(regime: Regime, form: Form) -> Result<Test, Unexamined> {
 }
 
 /// The printed line for Φ3. Forms: as printed; the sign; the quotient inverted; I1 in the place of I3.
-fn third_angle(regime: Regime, form: Form) -> Result<Test, Unexamined> {
+fn third_angle(regime: Regime, form: Form, turned: bool) -> Result<Test, Unexamined> {
     let mut worst = Worst::default();
-    for case in Case::all(484, regime) {
+    for case in Case::all(484, regime).map(|case| case.about(turned)) {
         let Jacobi { sn, cn, dn, .. } = case.jacobi(case.u);
         let scale = if form == 3 { case.i1 } else { case.i3 }.sqrt() * case.rate;
         let (above, below) = match regime {
@@ -230,8 +243,8 @@ fn initial_phase(form: Form) -> Result<Test, Unexamined> {
         for case in Case::all(485, regime) {
             // Any start: the direction and its rate at the random argument, turned back in time for the starts that the condition excludes.
             let (sine, cosine) = case.direction(case.u);
-            let sine_rate = slope(|u| case.direction(u).0, case.u);
-            let cosine_rate = slope(|u| case.direction(u).1, case.u);
+            let sine_rate = slope_of_order_2(|u| case.direction(u).0, case.u);
+            let cosine_rate = slope_of_order_2(|u| case.direction(u).1, case.u);
             let (value, value_rate) =
                 if regime == OscillatingAbove { (cosine, cosine_rate) } else { (sine, sine_rate) };
             // The printed formulas increase in the principal range, the third decreases.
@@ -251,20 +264,20 @@ fn initial_phase(form: Form) -> Result<Test, Unexamined> {
                 (3, None) => (s * case.m).atan2((Wide::ONE - (s * case.m).squared()).sqrt()),
                 (_, None) => s.atan2((Wide::ONE - s * s).max(Wide::ZERO).sqrt()),
             };
-            let psi0 = crate::numerics::elliptic::incomplete::incomplete_f(amplitude, case.m, case.mc);
+            let psi0 = incomplete_f(amplitude, case.m, case.mc);
             let at_start = |u: Wide| {
                 let (sine, cosine) = case.direction(u);
                 if regime == OscillatingAbove { cosine } else { sine }
             };
             worst.see((at_start(psi0) - value).to_f64());
-            worst.see((slope(at_start, psi0) - sign * value_rate).to_f64());
+            worst.see((slope_of_order_2(at_start, psi0) - sign * value_rate).to_f64());
         }
     }
     Ok(worst.at_most(1e-12, "an inverse function at its turning points, in double-double"))
 }
 
-const ALPHA: [&str; 4] =
-    ["as printed", "I1 and I3 exchanged in m", "the frequency without its root", "cn and sn exchanged"];
+const ALPHA: [&str; 5] =
+    ["as printed", "1 − m for m", "the frequency without its root", "cn and sn exchanged", "the sign"];
 const FIRST: [&str; 4] = [
     "as printed",
     "the sign of the third kind",
@@ -274,7 +287,7 @@ const FIRST: [&str; 4] = [
 const SECOND: [&str; 4] = ["as printed", "I3 without its root", "I1 in the place of I3", "the sign"];
 const THIRD: [&str; 4] = ["as printed", "the sign", "the quotient inverted", "I1 in the place of I3"];
 
-const ALPHA_METHOD: &str = "the line as printed, by difference quotients, against α'² = (G² − I1 cos²α − I3 sin²α)/(I1 I3), random moments, G and t";
+const ALPHA_METHOD: &str = "the line as printed, by difference quotients, against α'² = (G² − I1 cos²α − I3 sin²α)/(I1 I3), and its start with the printed ψ0, random moments, G, t and α(0)";
 const FIRST_METHOD: &str = "the derivative of the printed line by difference quotients of the third kind against (32), random moments, G and t";
 const SECOND_METHOD: &str =
     "against H3 = |H| cos Φ2 of (4), H2 from α' by difference quotients, random moments, G and t";
@@ -304,7 +317,7 @@ pub const ALL: &[Statement] = &[
         OSCILLATING_BELOW,
         "sin α(t) = √m sn(ωt + ψ0|m), m = (G² − I1)/(I3 − I1), ω = √((I3 − I1)/(I1 I3)).",
         (ALPHA_METHOD, &ALPHA),
-        |form| alpha(OscillatingBelow, form),
+        |form| alpha(OscillatingBelow, [0, 1, 2, 3, 5][form.min(4)]),
     ),
     direct(
         "spin_oscillating_below_phi1",
@@ -318,21 +331,21 @@ pub const ALL: &[Statement] = &[
         OSCILLATING_BELOW,
         "cos Φ2 = (√(I3 m)/G) sn(ωt + ψ0|m).",
         (SECOND_METHOD, &SECOND),
-        |form| second_angle(OscillatingBelow, form),
+        |form| second_angle(OscillatingBelow, form, false),
     ),
     direct(
         "spin_oscillating_below_phi3",
         OSCILLATING_BELOW,
         "tan Φ3 = √(I3 m) ω cn(ωt + ψ0|m)/dn(ωt + ψ0|m).",
         (THIRD_METHOD, &THIRD),
-        |form| third_angle(OscillatingBelow, form),
+        |form| third_angle(OscillatingBelow, form, false),
     ),
     direct(
         "spin_rotating_below_alpha",
         ROTATING_BELOW,
         "sin α(t) = sn(ω̄t + ψ0|m), m = (I3 − I1)/(G² − I1), ω̄ = ω/√m.",
         (ALPHA_METHOD, &ALPHA),
-        |form| alpha(RotatingBelow, form),
+        |form| alpha(RotatingBelow, [0, 1, 2, 3, 5][form.min(4)]),
     ),
     direct(
         "spin_rotating_below_phi1",
@@ -346,21 +359,21 @@ pub const ALL: &[Statement] = &[
         ROTATING_BELOW,
         "cos Φ2 = (√I3/G) sn(ω̄t + ψ0|m).",
         (SECOND_METHOD, &SECOND),
-        |form| second_angle(RotatingBelow, form),
+        |form| second_angle(RotatingBelow, form, false),
     ),
     direct(
         "spin_rotating_below_phi3",
         ROTATING_BELOW,
         "tan Φ3 = √I3 ω̄ dn(ω̄t + ψ0|m)/cn(ω̄t + ψ0|m).",
         (THIRD_METHOD, &THIRD),
-        |form| third_angle(RotatingBelow, form),
+        |form| third_angle(RotatingBelow, form, false),
     ),
     direct(
         "spin_oscillating_above_alpha",
         OSCILLATING_ABOVE,
         "cos α(t) = −√m sn(ωt + ψ0|m), m = (G² − I3)/(I1 − I3), ω = √((I1 − I3)/(I1 I3)).",
         (ALPHA_METHOD, &ALPHA),
-        |form| alpha(OscillatingAbove, form),
+        |form| alpha(OscillatingAbove, [0, 1, 2, 3, 5][form.min(4)]),
     ),
     direct(
         "spin_oscillating_above_phi1",
@@ -369,20 +382,30 @@ pub const ALL: &[Statement] = &[
         (FIRST_METHOD, &FIRST),
         |form| first_angle(OscillatingAbove, form),
     ),
-    direct(
-        "spin_oscillating_above_phi2",
-        OSCILLATING_ABOVE,
-        "cos Φ2 = (√I3/G) dn(ωt + ψ0|m).",
-        (SECOND_METHOD, &SECOND),
-        |form| second_angle(OscillatingAbove, form),
-    ),
-    direct(
-        "spin_oscillating_above_phi3",
-        OSCILLATING_ABOVE,
-        "tan Φ3 = −√I3 ω cn(ωt + ψ0|m)/sn(ωt + ψ0|m).",
-        (THIRD_METHOD, &THIRD),
-        |form| third_angle(OscillatingAbove, form),
-    ),
+    Statement {
+        id: "spin_oscillating_above_phi2",
+        place: OSCILLATING_ABOVE,
+        says: "cos Φ2 = (√I3/G) dn(ωt + ψ0|m).",
+        method: SECOND_METHOD,
+        shape: Shape::OnlyWhen {
+            condition: "sin α > 0, the oscillation about α = π/2; about −π/2 the sign is the other one",
+        },
+        forms: &["about π/2", "about −π/2", "I3 without its root", "I1 in the place of I3", "the sign"],
+        examine: |form| second_angle(OscillatingAbove, form.saturating_sub(1), form == 1),
+        note: "The lines for α and for Φ1 hold for both.",
+    },
+    Statement {
+        id: "spin_oscillating_above_phi3",
+        place: OSCILLATING_ABOVE,
+        says: "tan Φ3 = −√I3 ω cn(ωt + ψ0|m)/sn(ωt + ψ0|m).",
+        method: THIRD_METHOD,
+        shape: Shape::OnlyWhen {
+            condition: "sin α > 0, the oscillation about α = π/2; about −π/2 the sign is the other one",
+        },
+        forms: &["about π/2", "about −π/2", "the sign", "the quotient inverted", "I1 in the place of I3"],
+        examine: |form| third_angle(OscillatingAbove, form.saturating_sub(1), form == 1),
+        note: "The lines for α and for Φ1 hold for both.",
+    },
     Statement {
         id: "spin_rotating_above_alpha",
         place: ROTATING_ABOVE,
@@ -394,11 +417,12 @@ pub const ALL: &[Statement] = &[
         forms: &[
             "m², as printed",
             "m",
-            "I1 and I3 exchanged in m",
+            "1 − m for m",
             "the frequency without its root",
             "cn and sn exchanged",
+            "the sign",
         ],
-        examine: |form| alpha(RotatingAbove, [4, 0, 1, 2, 3][form.min(4)]),
+        examine: |form| alpha(RotatingAbove, [4, 0, 1, 2, 3, 5][form.min(5)]),
         note: "The other three cases give m itself; here, in the text at hand, a square stands, as if m were the modulus, which Π and ω̄ = ω/√m contradict.",
     },
     direct(
@@ -413,14 +437,14 @@ pub const ALL: &[Statement] = &[
         ROTATING_ABOVE,
         "cos Φ2 = −(√I3/G) cn(ω̄t + ψ0|m).",
         (SECOND_METHOD, &SECOND),
-        |form| second_angle(RotatingAbove, form),
+        |form| second_angle(RotatingAbove, form, false),
     ),
     direct(
         "spin_rotating_above_phi3",
         ROTATING_ABOVE,
         "tan Φ3 = √I3 ω̄ dn(ω̄t + ψ0|m)/sn(ω̄t + ψ0|m).",
         (THIRD_METHOD, &THIRD),
-        |form| third_angle(RotatingAbove, form),
+        |form| third_angle(RotatingAbove, form, false),
     ),
     Statement {
         id: "spin_initial_phase",
@@ -435,11 +459,3 @@ pub const ALL: &[Statement] = &[
         note: "Inverse functions are taken with their principal values: nothing in the article chooses a branch by the sign of α'(0).",
     },
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -3,8 +3,9 @@
 //! α is read off random momenta with H_n = 1/2 and moved along the printed Euler equations (which `left_invariant` checks), to second order
 //! where α'' is asked for. The energy of the pendulum is in `spin_pendulum_energy`.
 
+use super::differences::{Wide, second_slope_of_order_4, slope_of_order_2, slopes_of_order_2, wide};
 use super::left_invariant::{attitude, body_velocity};
-use super::spin_points::{POINTS, QUOTIENT, Wide, dot, reason, second_slope, slope, slopes, wide};
+use super::spin_points::{POINTS, QUOTIENT, dot, reason};
 use super::statement::{Cases, Samples, Shape, Statement, Worst};
 use crate::contract::claim::Test;
 use crate::numerics::real::Real;
@@ -48,7 +49,8 @@ impl Top {
     pub(super) fn moved(&self, s: Wide) -> [Wide; 3] {
         let first = self.rate(self.momentum);
         // The right-hand side is quadratic: the quotient has no truncation error.
-        let second = slopes(|s| self.rate(std::array::from_fn(|i| self.momentum[i] + s * first[i])), Wide::ZERO);
+        let second =
+            slopes_of_order_2(|s| self.rate(std::array::from_fn(|i| self.momentum[i] + s * first[i])), Wide::ZERO);
         std::array::from_fn(|i| self.momentum[i] + s * (first[i] + s * second[i] / wide(2.0)))
     }
 
@@ -89,7 +91,7 @@ const RATE: Statement = Statement {
                 3 => -i1,
                 _ => -(i1 * i3).sqrt(),
             };
-            let rate = slope(|s| top.turned(s), Wide::ZERO);
+            let rate = slope_of_order_2(|s| top.turned(s), Wide::ZERO);
             worst.see(((factor * rate - top.momentum[1]) / top.momentum[1]).to_f64());
         }
         Ok(worst.at_most(QUOTIENT, reason(QUOTIENT)))
@@ -119,7 +121,7 @@ const PENDULUM: Statement = Statement {
             };
             // Relative to the square of α' and the size of the right-hand side: what second quotients see.
             let size = (top.momentum[1].squared() / (i1 * i3)).max(excess.abs() / i1);
-            worst.see(((second_slope(|s| top.turned(s), Wide::ZERO) - printed) / size).to_f64());
+            worst.see(((second_slope_of_order_4(|s| top.turned(s), Wide::ZERO) - printed) / size).to_f64());
         }
         Ok(worst.at_most(1e-12, "second difference quotients in double-double"))
     },
@@ -239,11 +241,3 @@ const EQUILIBRIA_ABOVE: Statement = Statement {
     },
     note: "",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

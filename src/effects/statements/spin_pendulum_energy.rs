@@ -3,8 +3,9 @@
 //! Random momenta with H_n = 1/2, moved along the Euler equations. Proposition 4.5 is decided by integrating the Euler equations and looking for a
 //! zero of H2.
 
+use super::differences::{Wide, slope_of_order_2, wide};
 use super::spin_pendulum::{Top, moments};
-use super::spin_points::{ALGEBRA, POINTS, Wide, reason, slope, wide};
+use super::spin_points::{ALGEBRA, POINTS, reason};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::numerics::real::Real;
 use crate::numerics::taylor::events::{Component, Events};
@@ -48,7 +49,7 @@ const NATURAL: Statement = Statement {
         let mut worst = Worst::default();
         for top in Top::all(466) {
             let [i1, i3] = top.inertia;
-            let drift = slope(|s| energy(&top, top.moved(s), form), Wide::ZERO);
+            let drift = slope_of_order_2(|s| energy(&top, top.moved(s), form), Wide::ZERO);
             // What either term changes by.
             let size = (top.momentum[1] * (i1 - i3)).abs() / (i1 * i3 * (i1 * i3).sqrt());
             worst.see((drift / size).to_f64());
@@ -212,11 +213,3 @@ const SEPARATRIX: Statement = Statement {
     },
     note: "",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

@@ -1,16 +1,12 @@
-//! Sample points of the spin problem, and derivatives by difference quotients, for the statements of sections 4 and 5.
+//! Sample points of the spin problem, for the statements of sections 4 and 5.
 //!
-//! All in double-double: an identity that holds leaves 1e-25 and less, so that a slip of any size shows, and a difference quotient with
-//! a step of 1e-12 still has twenty digits. The samples cover k from 0.05 to 20, with points beside the equator, beside the poles and beside
+//! The samples cover k from 0.05 to 20, with points beside the equator, beside the poles and beside
 //! k = 1 among them. Not known here: what is claimed.
 
+use super::differences::{Wide, wide};
 use super::statement::{Samples, Worst};
 use crate::contract::claim::Test;
-use crate::numerics::double_double::DoubleDouble;
 use crate::numerics::real::Real;
-
-/// The scalar of the checks.
-pub type Wide = DoubleDouble;
 
 /// How many points a check sees.
 pub const POINTS: usize = 100;
@@ -18,39 +14,6 @@ pub const POINTS: usize = 100;
 pub const ALGEBRA: f64 = 1e-20;
 /// What an identity with a difference quotient may leave, relative.
 pub const QUOTIENT: f64 = 1e-14;
-/// Step of a first difference quotient: truncation of the order of its square, rounding 1e-32 divided by it.
-const STEP: f64 = 1e-12;
-/// Step of a second difference quotient of fourth order.
-const STEP_OF_SECOND: f64 = 1e-5;
-
-/// A number as double-double.
-pub fn wide(x: f64) -> Wide {
-    Wide::from_f64(x)
-}
-
-/// Derivatives by the symmetric difference quotient.
-pub fn slopes<const N: usize>(f: impl Fn(Wide) -> [Wide; N], x: Wide) -> [Wide; N] {
-    let step = wide(STEP);
-    let (after, before) = (f(x + step), f(x - step));
-    std::array::from_fn(|i| (after[i] - before[i]) / (step + step))
-}
-
-/// The derivative by the symmetric difference quotient.
-pub fn slope(f: impl Fn(Wide) -> Wide, x: Wide) -> Wide {
-    slopes(|x| [f(x)], x)[0]
-}
-
-/// The derivative of a quadratic polynomial: any step is free of truncation, a long one of rounding.
-pub fn slope_of_quadratic(f: impl Fn(Wide) -> Wide, x: Wide) -> Wide {
-    (f(x + Wide::ONE) - f(x - Wide::ONE)) / wide(2.0)
-}
-
-/// The second derivative by the difference quotient of fourth order.
-pub fn second_slope(f: impl Fn(Wide) -> Wide, x: Wide) -> Wide {
-    let h = wide(STEP_OF_SECOND);
-    let (near, far) = (f(x + h) + f(x - h), f(x + h + h) + f(x - h - h));
-    (wide(16.0) * near - far - wide(30.0) * f(x)) / (wide(12.0) * h * h)
-}
 
 /// The difference of two sides, relative to the larger.
 pub fn gap(left: Wide, right: Wide) -> f64 {
@@ -143,33 +106,5 @@ pub fn reason(tolerance: f64) -> &'static str {
         "double-double, what cancels beside equator and poles left out"
     } else {
         "difference quotients in double-double"
-    }
-}
-
-/// What the statements of a file must show: those of `false_ones` fail, all others stand as their shape says, and no wrong form passes.
-#[cfg(test)]
-pub mod expected {
-    use crate::contract::claim::Evidence;
-    use crate::effects::statements::statement::Statement;
-    use std::collections::BTreeSet;
-
-    /// Asserts it.
-    pub fn stand(all: &[Statement], false_ones: &[&str]) {
-        let ids: BTreeSet<_> = all.iter().map(|statement| statement.id).collect();
-        assert_eq!(ids.len(), all.len(), "an id stands twice");
-        assert!(false_ones.iter().all(|id| ids.contains(id)));
-        for statement in all {
-            let examined = statement.examined().unwrap();
-            let stands = match &examined.claim.evidence {
-                Evidence::Direct(test) => test.holds(),
-                Evidence::Slip { printed, corrected, .. } => !printed.holds() && corrected.holds(),
-                Evidence::OnlyWhen { inside, outside, .. } => inside.holds() && !outside.holds(),
-                Evidence::NotChecked { .. } => continue,
-            };
-            assert_eq!(stands, !false_ones.contains(&statement.id), "{:#?}", examined.claim);
-            assert!(examined.variants.len() >= 2, "{} has too few wrong forms", statement.id);
-            let survivors: Vec<_> = examined.survivors().collect();
-            assert!(survivors.is_empty(), "{}: {survivors:#?}", statement.id);
-        }
     }
 }

@@ -3,7 +3,8 @@
 //! The spins are checked on the algebra of Pauli strings itself: `i[P, Q] = −2 Im(phase) S` where `P Q = phase·S`. Units: time in
 //! `1/(π J12)`.
 
-use super::spin_points::{ALGEBRA, POINTS, QUOTIENT, Wide, anisotropy, dot, gap, reason, slope, wide};
+use super::differences::{Wide, slope_of_order_2, wide};
+use super::spin_points::{ALGEBRA, POINTS, QUOTIENT, anisotropy, dot, gap, reason};
 use super::statement::{Form, Samples, Shape, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
 use crate::numerics::real::Real;
@@ -120,7 +121,7 @@ impl SpinState {
     /// The derivative along the flow of a function of the state.
     fn derivative(&self, f: impl Fn([Wide; 4]) -> Wide) -> Wide {
         let rate = self.rate();
-        slope(|t| f(std::array::from_fn(|i| self.x[i] + t * rate[i])), Wide::ZERO)
+        slope_of_order_2(|t| f(std::array::from_fn(|i| self.x[i] + t * rate[i])), Wide::ZERO)
     }
 }
 
@@ -249,13 +250,11 @@ const COST: Statement = Statement {
 
 const SAME_LETTER: Statement = Statement {
     id: "spin_k_of_metric",
-    place: "sections 4.1 and 4.2, the letter k",
-    says: "The time of (26) is the length of g = (dr1² + k² dr3²)/r2² with the k = J23/J12 of (25).",
+    place: "beyond the article, sections 4.1 and 4.2",
+    says: "The time of (26) is the length of g = (dr1² + k² dr3²)/r2² with k = J12/J23, the inverse of the k of (25).",
     method: "g(r', r') = 1 along (26) at random states, α and k",
-    shape: Shape::Slip {
-        correction: "The time of (26) is the length of g whose k is J12/J23, the inverse of the k of (25).",
-    },
-    forms: &["the same k", "the inverse k", "the inverse square root of k", "the k of (25) at dr1"],
+    shape: Shape::Direct,
+    forms: &["derived here", "the same k", "the inverse square root of k", "the k of (25) at dr1"],
     examine: |form| {
         let mut worst = Worst::default();
         for state in SpinState::all(406) {
@@ -263,7 +262,7 @@ const SAME_LETTER: Statement = Statement {
             let (v1, v3) = (-(cosine * r2), state.k * sine * r2);
             let k2 = state.k * state.k;
             let (first, third) = match form {
-                0 => (Wide::ONE, k2),
+                1 => (Wide::ONE, k2),
                 2 => (Wide::ONE, Wide::ONE / state.k),
                 3 => (k2, Wide::ONE),
                 _ => (Wide::ONE, Wide::ONE / k2),
@@ -272,8 +271,8 @@ const SAME_LETTER: Statement = Statement {
         }
         Ok(worst.at_most(ALGEBRA, reason(ALGEBRA)))
     },
-    note: "Section 4.2 defines k anew by k² = I1/I3 and lets (27), (28) stand for the problem of section 4.1: this is right when its k is the \
-           inverse of the first one. By the exchange of r1 and r3 (next statement) the transfer from (1, 0, 0) to (0, 0, 1) does not feel it.",
+    note: "Section 4.2 defines its k anew, k² = I1/I3; the article does not say how it follows from the k of section 4.1, which has the same letter. \
+           By the exchange of r1 and r3 (next statement) the transfer from (1, 0, 0) to (0, 0, 1) does not feel the difference.",
 };
 
 const EXCHANGE: Statement = Statement {
@@ -297,11 +296,3 @@ const EXCHANGE: Statement = Statement {
     },
     note: "",
 };
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn statements_stand_and_wrong_forms_are_refused() {
-        crate::effects::statements::spin_points::expected::stand(super::ALL, &[]);
-    }
-}

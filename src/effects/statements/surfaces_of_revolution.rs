@@ -1,113 +1,14 @@
 //! Statements of section 3.3.1: geodesics and conjugate points on a surface of revolution `dφ² + μ(φ) dθ²`.
 //!
-//! Most are checked on the surfaces `1/μ = W = 1 + aφ² + bφ⁴`, which have an equator, a mirror there, and a pendulum that is hard or soft by
-//! the choice of `b`: the first return falls with `p_θ` (tame) for `b < 2a²/3` and grows for larger `b`, about the equator. Their geodesics are
-//! integrated with the variation by `p_θ` at a fixed energy, by a Runge-Kutta pair that shares nothing with the closed forms. The
-//! substitution `φ = φ+ sin s` makes period and first return means over a turn.
+//! Most are checked on the surfaces of [`super::surface`], tame ones and others.
 
-use super::bodies::{Wide, by_differences, direct, exact, identity, integral, slope, wide};
+use super::bodies::{by_differences, direct, identity, integral};
+use super::differences::{Wide, slope_of_order_4, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
+use super::surface::Surface;
 use crate::contract::claim::Test;
 use crate::numerics::real::Real;
 use crate::numerics::roots::{RootTolerance, bracketed};
-use crate::numerics::runge_kutta::dop853::Dop853;
-use crate::numerics::runge_kutta::integrator::integrate;
-use crate::numerics::runge_kutta::rate::{ByRate, RightHandSide};
-use crate::numerics::taylor::integrator::Settings;
-
-/// A surface and Clairaut's constant `p_θ < 1` of a geodesic that oscillates about the equator.
-#[derive(Clone, Copy, Debug)]
-struct Surface {
-    a: f64,
-    b: f64,
-    p: f64,
-}
-
-impl Surface {
-    /// A tame one, `−0.2 < b/a² < 0.5`.
-    fn tame(samples: &mut Samples) -> Self {
-        Self::new(samples, -0.2, 0.5)
-    }
-
-    /// One whose first return grows with `p_θ`.
-    fn hard(samples: &mut Samples) -> Self {
-        Self::new(samples, 2.0, 5.0)
-    }
-
-    fn new(samples: &mut Samples, from: f64, to: f64) -> Self {
-        let a = samples.log(0.3, 3.0);
-        // 1/p² − 1 < 1 stays below the height a²/(4|b|) of a soft pendulum's wall.
-        Self { a, b: a * a * samples.even(from, to), p: 1.0 / (1.0 + samples.even(0.05, 0.9)).sqrt() }
-    }
-
-    /// `φ+`, where `p² W = 1`.
-    fn turning(&self, p: Wide) -> Wide {
-        let (a, b, two) = (wide(self.a), wide(self.b), wide(2.0));
-        let height = Wide::ONE / (p * p) - Wide::ONE;
-        (two * height / (a + (a * a + wide(4.0) * b * height).sqrt())).sqrt()
-    }
-
-    /// Period and first return as means over a turn of `1/√(a + b φ+²(1 + sin² s))`, and of W times that.
-    fn returns(&self, p: Wide) -> [Wide; 2] {
-        let (a, b, square) = (wide(self.a), wide(self.b), self.turning(p) * self.turning(p));
-        let count = 24;
-        let mut sums = [Wide::ZERO; 2];
-        for i in 0..count {
-            let sine = (Wide::PI * wide((f64::from(i) + 0.5) / f64::from(count))).sin();
-            let x = square * sine * sine;
-            let weight = Wide::ONE / (a + b * (square + x)).sqrt();
-            sums[0] += weight;
-            sums[1] += weight * (Wide::ONE + a * x + b * x * x);
-        }
-        let mean = wide(1.0 / f64::from(count));
-        [wide(2.0) * Wide::PI / p * sums[0] * mean, Wide::PI * sums[1] * mean]
-    }
-
-    fn period(&self) -> f64 {
-        self.returns(wide(self.p))[0].to_f64()
-    }
-
-    /// `[φ, p_φ, θ, δφ, δp_φ, δθ]` after a time, from the equator upwards.
-    fn after(&self, from: &[f64; 6], span: f64) -> Result<[f64; 6], Unexamined> {
-        let flow = ByRate::new(*self);
-        let arrival =
-            integrate(Dop853, &flow, from, (0.0, span), &Settings::new(1e-14), &mut ()).map_err(unexamined)?;
-        Ok(arrival.state)
-    }
-
-    /// The state on the equator, ascending; the variation by `p_θ` keeps the energy.
-    fn start(&self) -> [f64; 6] {
-        let p_phi = ((1.0 - self.p) * (1.0 + self.p)).sqrt();
-        [0.0, p_phi, 0.0, 0.0, -self.p / p_phi, 0.0]
-    }
-
-    /// Whether `δφ` keeps its sign on `(0, end)`. Its zeros are at least a half turn of the largest curvature apart, many times the step.
-    fn no_conjugate_point(&self, end: f64) -> Result<bool, Unexamined> {
-        let (mut state, count) = (self.start(), 24);
-        for _ in 0..count {
-            state = self.after(&state, end / f64::from(count))?;
-            if state[3] >= 0.0 {
-                return Ok(false);
-            }
-        }
-        Ok(true)
-    }
-}
-
-impl RightHandSide<f64> for Surface {
-    type State<T: Copy> = [T; 6];
-
-    fn rate(&self, _: f64, x: &[f64; 6]) -> [f64; 6] {
-        let (s, p) = (x[0] * x[0], self.p);
-        let w = 1.0 + s * (self.a + self.b * s);
-        let (w1, w2) = (x[0] * (2.0 * self.a + 4.0 * self.b * s), 2.0 * self.a + 12.0 * self.b * s);
-        [x[1], -0.5 * p * p * w1, p * w, x[4], -p * w1 - 0.5 * p * p * w2 * x[3], w + p * w1 * x[3]]
-    }
-
-    fn scales(&self, _: &[f64; 6]) -> [f64; 6] {
-        [1.0; 6]
-    }
-}
 
 /// `(a, b, φ, p_φ, p_θ)` of a surface without symmetry, `1/μ = 1 + aφ + bφ²`.
 fn point(samples: &mut Samples) -> [Wide; 5] {
@@ -124,8 +25,8 @@ fn flow_21(form: Form) -> Result<Test, Unexamined> {
         let x = point(samples);
         let [a, b, phi, _, p_theta] = x;
         let mu = |phi: Wide| Wide::ONE / (Wide::ONE + a * phi + b * phi * phi);
-        let left = -slope(|phi| energy([a, b, phi, x[3], p_theta]), phi, 1e-5);
-        let printed = slope(mu, phi, 1e-5) / (wide(2.0) * mu(phi) * mu(phi));
+        let left = -slope_of_order_4(|phi| energy([a, b, phi, x[3], p_theta]), phi, 1e-5);
+        let printed = slope_of_order_4(mu, phi, 1e-5) / (wide(2.0) * mu(phi) * mu(phi));
         let right = match form {
             0 => printed,
             2 => -(printed * p_theta * p_theta),
@@ -143,8 +44,8 @@ fn slope_22(form: Form) -> Result<Test, Unexamined> {
         let p = wide(samples.even(0.05, 0.95)) * mu.sqrt();
         // Arc length: p_φ² = 1 − p_θ²/μ; dθ/dφ from the derivatives of H.
         let p_phi = (Wide::ONE - p * p / mu).sqrt();
-        let theta = slope(|p| energy([a, b, phi, p_phi, p]), p, 1e-6);
-        let along = slope(|x| energy([a, b, phi, x, p]), p_phi, 1e-6);
+        let theta = slope_of_order_4(|p| energy([a, b, phi, p_phi, p]), p, 1e-6);
+        let along = slope_of_order_4(|x| energy([a, b, phi, x, p]), p_phi, 1e-6);
         let right = match form {
             1 => p / (mu.sqrt() * (mu + p * p).sqrt()),
             2 => p / (mu - p * p).sqrt(),
@@ -159,16 +60,18 @@ fn slope_22(form: Form) -> Result<Test, Unexamined> {
 fn range_of_clairaut(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut cases) = (Samples::new(903), Cases::default());
     for _ in 0..300 {
-        let mu = samples.log(0.1, 10.0);
+        let [a, b, phi, ..] = point(&mut samples);
+        let mu = Wide::ONE / (Wide::ONE + a * phi + b * phi * phi);
         let limit = match form {
             0 => mu,
             2 => mu * mu,
-            3 => 1.0 / mu.sqrt(),
+            3 => Wide::ONE / mu.sqrt(),
             _ => mu.sqrt(),
         };
-        // p_φ² = 1 − p_θ²/μ ≥ 0 just inside and not just outside.
-        let real = |p: f64| p * p <= mu;
-        cases.see(real(limit * (1.0 - 1e-9)) && !real(limit * (1.0 + 1e-9)), || format!("μ(φ0) = {mu}"));
+        // H = 1/2 leaves p_φ² ≥ 0 just inside and not just outside.
+        let real = |p: Wide| energy([a, b, phi, Wide::ZERO, p]) <= wide(0.5);
+        let holds = real(limit * wide(1.0 - 1e-9)) && !real(limit * wide(1.0 + 1e-9));
+        cases.see(holds, || format!("μ(φ0) = {}", mu.to_f64()));
     }
     Ok(cases.none())
 }
@@ -183,7 +86,7 @@ fn parallels(form: Form) -> Result<Test, Unexamined> {
             (_, 0) => critical,
             _ => critical + wide(samples.sign() * samples.even(0.01, 1.0)),
         };
-        let rate = -slope(|phi| energy([a, b, phi, Wide::ZERO, Wide::ONE]), phi, 1e-5);
+        let rate = -slope_of_order_4(|phi| energy([a, b, phi, Wide::ZERO, Wide::ONE]), phi, 1e-5);
         let rests = rate.abs() < wide(1e-18);
         let expected = if form == 2 { case % 2 == 1 } else { case % 2 == 0 };
         cases.see(rests == expected, || format!("φ = {}", phi.to_f64()));
@@ -226,13 +129,14 @@ fn gauss_curvature(form: Form) -> Result<Test, Unexamined> {
         let (s, c) = u.sin_cos();
         let square = big * big * s * s + small * small * c * c;
         let truth = if torus { c / (small * radius(u)) } else { small * small / (square * square) };
-        let first = |u: Wide| slope(radius, u, 1e-4) / stretch(u);
-        let second = slope(first, u, 1e-4) / stretch(u);
+        let first = |u: Wide| slope_of_order_4(radius, u, 1e-4) / stretch(u);
+        let second = slope_of_order_4(first, u, 1e-4) / stretch(u);
         let value = match form {
             1 => second / radius(u),
             2 => -second,
             3 => {
-                -(slope(|u| slope(|u| radius(u) * radius(u), u, 1e-4) / stretch(u), u, 1e-4) / stretch(u))
+                -(slope_of_order_4(|u| slope_of_order_4(|u| radius(u) * radius(u), u, 1e-4) / stretch(u), u, 1e-4)
+                    / stretch(u))
                     / (radius(u) * radius(u))
             }
             _ => -(second / radius(u)),
@@ -250,13 +154,13 @@ fn euler_field(form: Form) -> Result<Test, Unexamined> {
             match i {
                 0 => p[0],
                 1 => p[1] * (Wide::ONE + x[0] * x[2] + x[1] * x[2] * x[2]),
-                _ => -slope(|phi| energy([x[0], x[1], phi, p[0], p[1]]), x[2], 1e-5),
+                _ => -slope_of_order_4(|phi| energy([x[0], x[1], phi, p[0], p[1]]), x[2], 1e-5),
             }
         };
         let i = (samples.even(0.0, 3.0) as usize).min(2);
         let here = field(Wide::ONE, i);
         let along = if i == 2 { here } else { Wide::ZERO };
-        let commutator = along - slope(|scale| field(scale, i), Wide::ONE, 1e-5);
+        let commutator = along - slope_of_order_4(|scale| field(scale, i), Wide::ONE, 1e-5);
         let right = match form {
             1 => here,
             2 => -(wide(2.0) * here),
@@ -269,7 +173,7 @@ fn euler_field(form: Form) -> Result<Test, Unexamined> {
 fn collinearity(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut worst) = (Samples::new(908), Worst::default());
     for case in 0..100 {
-        let surface = if case % 2 == 0 { Surface::tame(&mut samples) } else { Surface::hard(&mut samples) };
+        let surface = if case % 2 == 0 { Surface::tame(&mut samples) } else { Surface::any(&mut samples) };
         let x = surface.after(&surface.start(), samples.even(0.1, 0.9) * surface.period())?;
         let left = match form {
             1 => x[1] * x[3] - surface.p * x[5],
@@ -300,7 +204,7 @@ fn tame_flow(form: Form) -> Result<Test, Unexamined> {
     for _ in 0..100 {
         let surface = if form == 1 { Surface::hard(&mut samples) } else { Surface::tame(&mut samples) };
         let p = wide(surface.p);
-        let falls = slope(|p| surface.returns(p)[1], p, 1e-5) < Wide::ZERO;
+        let falls = slope_of_order_4(|p| surface.returns(p)[1], p, 1e-5 * surface.p) < Wide::ZERO;
         let part = if form == 2 { 0.75 } else { 0.5 };
         let none = surface.no_conjugate_point(part * surface.period())?;
         cases.see(falls != (form == 1) && none, || format!("{surface:?}"));
@@ -311,7 +215,7 @@ fn tame_flow(form: Form) -> Result<Test, Unexamined> {
 fn period_and_return(form: Form) -> Result<Test, Unexamined> {
     let (mut samples, mut worst) = (Samples::new(911), Worst::default());
     for case in 0..80 {
-        let surface = if case % 2 == 0 { Surface::tame(&mut samples) } else { Surface::hard(&mut samples) };
+        let surface = if case % 2 == 0 { Surface::tame(&mut samples) } else { Surface::any(&mut samples) };
         let [period, first_return] = surface.returns(wide(surface.p)).map(|x| x.to_f64());
         let period = if form == 1 { 2.0 * period } else { period };
         // Half a period later: on the equator, descending, θ grown by the first return; a quarter: at φ+.
@@ -326,9 +230,9 @@ fn period_and_return(form: Form) -> Result<Test, Unexamined> {
 
 fn slopes_of_both(form: Form) -> Result<Test, Unexamined> {
     identity(912, 100, 1e-11, "means of 24 values, difference quotients", |samples| {
-        let surface = if samples.sign() > 0.0 { Surface::tame(samples) } else { Surface::hard(samples) };
+        let surface = if samples.sign() > 0.0 { Surface::tame(samples) } else { Surface::any(samples) };
         let p = wide(surface.p);
-        let by = |i: usize| slope(|p| surface.returns(p)[i], p, 1e-4);
+        let by = |i: usize| slope_of_order_4(|p| surface.returns(p)[i], p, 1e-4 * surface.p);
         let right = match form {
             1 => by(0) / p,
             2 => by(0) * p / wide(2.0),
@@ -349,13 +253,17 @@ fn equator_point(form: Form) -> Result<Test, Unexamined> {
             2 => 2.0 * std::f64::consts::PI / surface.a.sqrt(),
             _ => std::f64::consts::PI / surface.a.sqrt(),
         };
-        let holds = if case % 2 == 0 {
-            surface.p = 1.0;
-            let along = |t: f64| surface.after(&[0.0, 0.0, 0.0, 0.0, -1.0, 0.0], t);
-            along(time * (1.0 - 1e-6))?[3] < along(time * (1.0 + 1e-6))?[3] && along(time)?[3].abs() < 1e-10
-        } else {
-            surface.no_conjugate_point(time)?
-        };
+        // max G = G(0), looked at where geodesics go.
+        let top = surface.turning(wide(surface.p)).to_f64().max(0.5 / surface.a.sqrt());
+        let highest = (1..=20).all(|i| surface.curvature(top * f64::from(i) / 20.0) < surface.curvature(0.0));
+        let holds = highest
+            && if case % 2 == 0 {
+                surface.p = 1.0;
+                let along = |t: f64| surface.after(&[0.0, 0.0, 0.0, 0.0, -1.0, 0.0], t);
+                along(time * (1.0 - 1e-6))?[3] < along(time * (1.0 + 1e-6))?[3] && along(time)?[3].abs() < 1e-10
+            } else {
+                surface.no_conjugate_point(time)?
+            };
         cases.see(holds, || format!("{surface:?}"));
     }
     Ok(cases.none())
@@ -370,14 +278,19 @@ fn equation_24(form: Form) -> Result<Test, Unexamined> {
         let variation = |t: f64| surface.after(&middle, t).map_or(f64::NAN, |x| x[3]);
         let root = bracketed(variation, 0.0, period / 4.0, RootTolerance::full()).map_err(unexamined)?;
         let phi = wide(surface.after(&middle, root.x)?[0]);
-        let w = |phi: Wide| Wide::ONE + phi * phi * (wide(surface.a) + wide(surface.b) * phi * phi);
-        // ∂f/∂p_θ = W/(1 − p_θ² W)^(3/2).
-        let f = |x: Wide| {
-            let rest = Wide::ONE - p * p * w(x);
-            if form == 2 { w(x) / rest.sqrt() } else { w(x) / (rest * rest.sqrt()) }
+        let (a, b, top) = (wide(surface.a), wide(surface.b), surface.turning(p));
+        // ∂f/∂p_θ = W/(1 − p_θ² W)^(3/2); with φ = φ+ sin s and τ = tan s no root vanishes.
+        let along = |tau: Wide| {
+            let cosine2 = Wide::ONE / (Wide::ONE + tau * tau);
+            let x = top * top * tau * tau * cosine2;
+            let w = Wide::ONE + x * (a + b * x);
+            let rest = p * p * top * top * cosine2 * (a + b * (top * top + x));
+            let dphi = top * cosine2 * cosine2.sqrt();
+            dphi * if form == 2 { w / rest.sqrt() } else { w / (rest * rest.sqrt()) }
         };
-        let tail = integral(f, phi, Wide::ZERO, 16);
-        let slope_of_return = slope(|p| surface.returns(p)[1], p, 1e-4);
+        let sine = phi / top;
+        let tail = integral(along, sine / ((Wide::ONE - sine) * (Wide::ONE + sine)).sqrt(), Wide::ZERO, 16);
+        let slope_of_return = slope_of_order_4(|p| surface.returns(p)[1], p, 1e-4 * surface.p);
         let left = match form {
             1 => slope_of_return - tail,
             3 => slope_of_return / wide(2.0) + tail,
@@ -388,23 +301,157 @@ fn equation_24(form: Form) -> Result<Test, Unexamined> {
     Ok(worst.at_most(1e-11, "error of the integration, magnified where the geodesic turns"))
 }
 
+/// `P(t)/p_θ` at a random place: the variation that starts with `δp = p`, carried along by the flow; the time, and the energy.
+fn carried(samples: &mut Samples) -> Result<(Surface, [f64; 6], f64, f64), Unexamined> {
+    let surface = if samples.sign() > 0.0 { Surface::tame(samples) } else { Surface::hard(samples) };
+    // Any energy below that of the motion that the surface is made for.
+    let [_, p_phi, ..] = surface.start();
+    let from = surface.after(&surface.start(), samples.even(0.0, 1.0) * surface.period())?;
+    let p_phi = if samples.sign() > 0.0 { from[1] } else { 0.9 * samples.even(-1.0, 1.0) * p_phi.min(from[1].abs()) };
+    let t = samples.even(0.1, 1.0) * surface.period();
+    let end = surface.after(&[from[0], p_phi, 0.0, 0.0, p_phi / surface.p, 0.0], t)?;
+    let [w, ..] = surface.inverse_mu(from[0]);
+    Ok((surface, end, t, 0.5 * (p_phi * p_phi + surface.p * surface.p * w)))
+}
+
 fn energy_of_field(form: Form) -> Result<Test, Unexamined> {
-    exact(915, |samples| {
-        let x = point(samples);
-        // P = V + tH⃗ scaled: p·∂H/∂p = 2H, so ω(P) = 2tH, which is t on H = 1/2.
-        let w = Wide::ONE + x[0] * x[2] + x[1] * x[2] * x[2];
-        let t = wide(samples.even(0.1, 3.0));
-        let value = t * (x[3] * x[3] + x[4] * x[4] * w);
+    let (mut samples, mut worst) = (Samples::new(915), Worst::default());
+    for _ in 0..100 {
+        let (surface, end, t, h) = carried(&mut samples)?;
+        let p = surface.p;
+        let value = p * (end[1] * end[3] + p * end[5]);
         let factor = match form {
             1 => 1.0,
             2 => 4.0,
             _ => 2.0,
         };
-        [value, wide(factor) * t * energy(x), Wide::ZERO]
+        // What is added up: two products that may cancel.
+        let scale = p * ((end[1] * end[3]).abs() + (p * end[5]).abs());
+        worst.compare(value, factor * t * h, scale);
+    }
+    Ok(worst.at_most(1e-12, "error of a Runge-Kutta pair over a period"))
+}
+
+fn field_is_sum(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(919), Worst::default());
+    for _ in 0..100 {
+        let (surface, end, t, _) = carried(&mut samples)?;
+        let p = surface.p;
+        let [w, w1, _] = surface.inverse_mu(end[0]);
+        let t = match form {
+            1 => -t,
+            2 => 2.0 * t,
+            _ => t,
+        };
+        // V = p ∂_p at the end, and H⃗ there.
+        let sum = [t * end[1], end[1] - t * 0.5 * p * p * w1, t * p * w];
+        let size = sum.iter().map(|x| x.abs()).fold(p, f64::max);
+        (0..3).for_each(|i| worst.see((p * end[3 + i] - sum[i]) / size));
+    }
+    Ok(worst.at_most(1e-11, "error of a Runge-Kutta pair over a period"))
+}
+
+fn rest_of_21(form: Form) -> Result<Test, Unexamined> {
+    by_differences(916, |samples| {
+        let x = point(samples);
+        let [a, b, phi, p_phi, p_theta] = x;
+        let w = Wide::ONE + a * phi + b * phi * phi;
+        if samples.sign() > 0.0 {
+            let left = slope_of_order_4(|p| energy([a, b, phi, p, p_theta]), p_phi, 1e-5);
+            [left, if form == 1 { -p_phi } else { p_phi }, Wide::ONE]
+        } else {
+            let left = slope_of_order_4(|p| energy([a, b, phi, p_phi, p]), p_theta, 1e-5);
+            let right = match form {
+                2 => p_theta / w,
+                3 => p_theta * p_theta * w,
+                _ => p_theta * w,
+            };
+            [left, right, wide(1e-3)]
+        }
     })
 }
 
+fn pairing(form: Form) -> Result<Test, Unexamined> {
+    by_differences(917, |samples| {
+        let [a, b, phi, _, part] = point(samples);
+        let w = Wide::ONE + a * phi + b * phi * phi;
+        let p = part / wide(3.2) / w.sqrt();
+        // All p with H = 1/2 over one point: δp is the derivative along them.
+        let p_phi = |p: Wide| (Wide::ONE - p * p * w).sqrt();
+        let change = slope_of_order_4(p_phi, p, 1e-6 * p.to_f64());
+        let left = match form {
+            1 => p_phi(p) * change + p,
+            2 => p_phi(p) * change - p * w,
+            _ => p_phi(p) * change + p * w,
+        };
+        [left, Wide::ZERO, p * w]
+    })
+}
+
+/// `δφ`, `δθ` by the impulses `p_φ` and `p_θ` at the start, as one determinant.
+fn determinant(surface: &Surface, t: f64) -> Result<f64, Unexamined> {
+    let [_, p_phi, ..] = surface.start();
+    let column = |by_p_phi: f64| surface.after(&[0.0, p_phi, 0.0, 0.0, by_p_phi, 0.0], t);
+    let (first, second) = (column(0.0)?, column(1.0)?);
+    Ok(first[3] * second[5] - first[5] * second[3])
+}
+
+fn conjugate_points_by_field(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(918), Worst::default());
+    for _ in 0..25 {
+        let surface = Surface::tame(&mut samples);
+        let (low, high) = (0.5 * surface.period(), 0.75 * surface.period());
+        let value = |t: f64| determinant(&surface, t).unwrap_or(f64::NAN);
+        let root = bracketed(value, low, high, RootTolerance::full()).map_err(unexamined)?;
+        let from = match form {
+            // Variations that change the energy.
+            1 => [0.0, surface.start()[1], 0.0, 0.0, 0.0, 0.0],
+            2 => surface.start().map(|x| x.abs()),
+            _ => surface.start(),
+        };
+        let (end, before) = (surface.after(&from, root.x)?, surface.after(&from, low)?);
+        // Relative to what the field is half a period after the start.
+        worst.see(end[3] / before[3].abs());
+        worst.see(end[5] / (before[3].abs() * surface.start()[1] / surface.p));
+    }
+    Ok(worst.at_most(1e-10, "error of a Runge-Kutta pair, and a root of a determinant that cancels"))
+}
+
+/// `[t, φ, θ]` of the first conjugate point of a geodesic with `p_θ < 1`, between T/2 and 3T/4.
+fn conjugate_point(surface: &Surface) -> Result<[f64; 3], Unexamined> {
+    let period = surface.period();
+    let middle = surface.after(&surface.start(), period / 2.0)?;
+    let variation = |t: f64| surface.after(&middle, t).map_or(f64::NAN, |x| x[3]);
+    let root = bracketed(variation, 0.0, period / 4.0, RootTolerance::full()).map_err(unexamined)?;
+    let [phi, _, theta, ..] = surface.after(&middle, root.x)?;
+    Ok([period / 2.0 + root.x, phi, theta])
+}
+
+fn cusp_on_equator(form: Form) -> Result<Test, Unexamined> {
+    let (mut samples, mut worst) = (Samples::new(920), Worst::default());
+    for _ in 0..60 {
+        let surface = Surface::tame(&mut samples);
+        let end = std::f64::consts::PI / surface.a.sqrt();
+        // Conjugate points of two geodesics close to the equator, the squares of their p_φ one to four.
+        let at = |square: f64| conjugate_point(&Surface { p: (1.0 - square).sqrt(), ..surface });
+        let (near, far) = (at(1e-5)?, at(4e-5)?);
+        let [along, across] = [(far[2] - end) / (near[2] - end), far[1] / near[1]];
+        let (expected_along, expected_across) = match form {
+            1 => (8.0, 4.0),
+            2 => (2.0, 4.0),
+            3 => (4.0, 4.0),
+            _ => (4.0, 8.0),
+        };
+        worst.see(along / expected_along - 1.0);
+        worst.see(across / expected_across - 1.0);
+        worst.see(if far[0] > near[0] && near[0] > end { 0.0 } else { 1.0 });
+    }
+    Ok(worst.at_most(1e-2, "the next power of the distance from the equator"))
+}
+
 const PLACE: &str = "section 3.3.1";
+const TRANSCRIPTION: &str =
+    "Known to us through a transcription of the page, which may have lost a sign, a root, an exponent or a factor.";
 const SURFACES: &str = "geodesics of 1/μ = 1 + aφ² + bφ⁴ with their variation, by a Runge-Kutta pair";
 
 /// The statements of this page.
@@ -417,8 +464,19 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "p_φ' = ½ p_θ² μ'/μ²" },
         forms: &["as printed", "with p_θ²", "the sign", "μ for μ²"],
         examine: flow_21,
-        note: "The other equations of (21) are right.",
+        note: TRANSCRIPTION,
     },
+    direct(
+        [
+            "rest_of_21",
+            "eq. (21)",
+            "φ' = p_φ and θ' = p_θ/μ.",
+            "difference quotients of H on surfaces without symmetry",
+        ],
+        &["as printed", "−p_φ", "p_θ μ", "p_θ²/μ"],
+        rest_of_21,
+        "",
+    ),
     direct(
         [
             "slope_22",
@@ -434,7 +492,7 @@ pub const ALL: &[Statement] = &[
         id: "range_of_clairaut",
         place: PLACE,
         says: "Geodesics through φ0 with p_θ > 0 have p_θ in (0, μ(φ0)).",
-        method: "whether p_φ is real just inside and just outside",
+        method: "whether H = 1/2 leaves a real p_φ just inside and just outside, on surfaces without symmetry",
         shape: Shape::Slip { correction: "p_θ in (0, √μ(φ0))" },
         forms: &["as printed", "√μ", "μ²", "1/√μ"],
         examine: range_of_clairaut,
@@ -476,9 +534,47 @@ pub const ALL: &[Statement] = &[
         "",
     ),
     direct(
-        ["poincare_field_is_transversal", PLACE, "ω(P(t)) = t p ∂H/∂p = 2tH.", "random points"],
+        [
+            "poincare_field",
+            PLACE,
+            "The flow carries V = p ∂_p along to P(t) = V + tH⃗.",
+            "the integrated variation that starts with δp = p, against both fields where it ends",
+        ],
+        &["as printed", "V − tH⃗", "V + 2tH⃗"],
+        field_is_sum,
+        "",
+    ),
+    direct(
+        [
+            "poincare_field_is_transversal",
+            PLACE,
+            "ω(P(t)) = t p ∂H/∂p = 2tH.",
+            "p δq of the integrated variation that starts with δp = p, any energy",
+        ],
         &["as printed", "tH", "4tH"],
         energy_of_field,
+        "",
+    ),
+    direct(
+        [
+            "variation_of_impulse",
+            "before Definition 3.12",
+            "At arc length ⟨p, δp⟩ = p_φ δp_φ + p_θ δp_θ/μ = 0 for variations with δq = 0.",
+            "p_φ as a function of p_θ at H = 1/2, by difference quotients",
+        ],
+        &["as printed", "without 1/μ", "a sign"],
+        pairing,
+        "The product is that of H: with the plain one, p_φ δp_φ + p_θ δp_θ, it is false.",
+    ),
+    direct(
+        [
+            "conjugate_points_by_field",
+            "Lemma 3.13",
+            "The end-point map degenerates where δφ = ∂φ/∂p_θ and δθ = ∂θ/∂p_θ, at a fixed energy, vanish together.",
+            "the field where the determinant of the derivatives by both impulses vanishes",
+        ],
+        &["as printed", "p_φ held, not the energy", "δp_φ of the other sign"],
+        conjugate_points_by_field,
         "",
     ),
     direct(
@@ -531,10 +627,22 @@ pub const ALL: &[Statement] = &[
             "equator_point",
             "Lemma 3.18",
             "If G(0) = max G > 0, the first conjugate time on the equator is π/√G(0), and no geodesic from there has an earlier one.",
-            SURFACES,
+            "geodesics of 1/μ = 1 + aφ² + bφ⁴ with their variation, any p_θ, by a Runge-Kutta pair; G on a grid",
         ],
         &["as printed", "π/G(0)", "2π/√G(0)"],
         equator_point,
+        "",
+    ),
+    direct(
+        [
+            "cusp_on_equator",
+            "Lemma 3.18",
+            "The conjugate locus of (0, 0) has a cusp at the equator's conjugate point, and later conjugate times beside it: for p_φ(0) → 0, \
+             θ* − θ*(0) falls like p_φ(0)² and φ* like its cube.",
+            "conjugate points of two geodesics close to the equator",
+        ],
+        &["as printed, with the powers", "the powers exchanged", "the first and the second power", "both squares"],
+        cusp_on_equator,
         "",
     ),
     direct(
@@ -560,11 +668,3 @@ pub const ALL: &[Statement] = &[
         "",
     ),
 ];
-
-#[cfg(test)]
-mod tests {
-    #[test]
-    fn every_statement_has_the_expected_outcome() {
-        crate::effects::statements::bodies::expect_outcomes(super::ALL, &[]);
-    }
-}
