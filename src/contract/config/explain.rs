@@ -60,6 +60,16 @@ pub(super) fn explain(
         let said = format!("wrong {what} of `{path}`");
         return (shown, problem(path.to_owned(), found, plain(expected), said));
     }
+    if let Some(expected) = message.strip_prefix("expected ") {
+        let name = path.rsplit('.').next().unwrap_or(path);
+        // toml's words for a name that was given parameters and has none.
+        let accepted = if expected == "empty table" {
+            format!("the name alone, \"{name}\": it has no parameters")
+        } else {
+            plain(expected)
+        };
+        return (shown, problem(path.to_owned(), found, accepted, format!("wrong value of `{path}`")));
+    }
     let said = if path.is_empty() { message.to_owned() } else { format!("`{path}`: {message}") };
     (shown, problem(path.to_owned(), found, String::new(), said))
 }

@@ -412,6 +412,14 @@ effects = [\"geodesics\", \"conjugate-locus\"]
     }
 
     #[test]
+    fn parameters_of_a_name_that_has_none() {
+        let error = error("\"geodesics\"", "{ geodesics = { count = 3 } }");
+        assert_eq!(error.key, "scene.effects[0].geodesics");
+        assert_eq!((error.found.as_str(), error.line), ("{ count = 3 }", 6));
+        assert_eq!(error.accepted, "the name alone, \"geodesics\": it has no parameters");
+    }
+
+    #[test]
     fn syntax_errors() {
         let open = error("count = 3", "count = ");
         assert_eq!((open.line, open.key.as_str()), (3, ""), "{open}");
