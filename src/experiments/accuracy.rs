@@ -309,7 +309,12 @@ impl Definition for AccuracyCost {
                 1e-29,
                 "a hundred times the rounding of double-double: orders of magnitude below all errors judged but those of double-double at 1e-28",
             ),
-            falls.claim("errors_fall", place, "Asking for less error gives less, down to rounding, for every method.", ""),
+            falls.claim(
+                "errors_fall",
+                place,
+                "Asking for less error gives less, down to rounding, for every method.",
+                "",
+            ),
             at_most(
                 "power_series_give_what_is_asked",
                 "The largest error of power series, over the error asked for.",

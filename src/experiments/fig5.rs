@@ -277,19 +277,29 @@ impl Definition for Fig5 {
             (length[b] < length[a], format!("k = {:?}, {:?}: lengths {:?}, {:?}", ks[a], ks[b], length[a], length[b]))
         });
         Ok(vec![
-            Cases::of(half_plane).claim("half_plane", "section 5.2.1", "For any k in [1, k3] the branch lies in the half-plane θ ≥ 0.",
+            Cases::of(half_plane).claim(
+                "half_plane",
+                "section 5.2.1",
+                "For any k in [1, k3] the branch lies in the half-plane θ ≥ 0.",
                 "Every sample of every branch; also θ ≤ π.",
             ),
-            Cases::of(has_loop).claim("loop", "section 5.2.1", "The branch forms a loop for k̄ ≤ k ≤ k3 (and none before).",
+            Cases::of(has_loop).claim(
+                "loop",
+                "section 5.2.1",
+                "The branch forms a loop for k̄ ≤ k ≤ k3 (and none before).",
                 "At k̄ the cusp passes the start along the meridian θ = 0. From then on the strand that comes from the cusp has to cross the arc that \
                  leaves the start, which touches the meridian from the other side of the equator: a double point, one for each k examined.",
             ),
-            Cases::of(ends).claim("ends_on_meridian",
-                    "section 5.2.1",
-                    "The branch ends at θ = π for k < k1, at θ = 0 for k1 < k < k2, at θ = π for k2 < k < k3.",
+            Cases::of(ends).claim(
+                "ends_on_meridian",
+                "section 5.2.1",
+                "The branch ends at θ = π for k < k1, at θ = 0 for k1 < k < k2, at θ = π for k2 < k < k3.",
                 "The limit p_θ → 0: k1 = 3/√8, k2 = 5/4, k3 = 7/√24.",
             ),
-            Cases::of(shrinks).claim("loops_shrink", "section 5.2.3", "The loops become smaller and smaller for greater values of k.",
+            Cases::of(shrinks).claim(
+                "loops_shrink",
+                "section 5.2.3",
+                "The loops become smaller and smaller for greater values of k.",
                 "The length of the loop on the sphere, over the values of k examined.",
             ),
             contact(&branches(params, tables)?),

@@ -267,7 +267,10 @@ impl Definition for Fig7 {
                 let beyond = branch.t1[0] > PI && branch.t1[0] < 1.5 * PI && branch.phi[0] > FRAC_PI_2;
                 (beyond, format!("k = {:?}: t1 = {:?}, φ = {:?}", branch.k, branch.t1[0], branch.phi[0]))
             });
-            claims.push(Cases::of(cases).claim("cusp_stays_beyond_equator", "section 5.2.3", "For k < 1 the cusp does not cross the equator.",
+            claims.push(Cases::of(cases).claim(
+                "cusp_stays_beyond_equator",
+                "section 5.2.3",
+                "For k < 1 the cusp does not cross the equator.",
                 "For p_θ = 0 and k < 1, t1 solves l tan t = tanh(l t), l² = 1/k² − 1, which has its first root in (π, 3π/2) for every l: \
                  between the equator, reached as k → 0, and the round case.",
             ));

@@ -275,14 +275,20 @@ impl Definition for Fig8 {
             ));
         }
         if branches.iter().any(|branch| branch.k >= 1.0 && branch.k < switches.k2) {
-            claims.push(Cases::of(above).claim("pole_then_equator", "section 5.2.3", "For k > 1 the cusp first crosses a pole (k = k1), then the equator (k = k̄).",
+            claims.push(Cases::of(above).claim(
+                "pole_then_equator",
+                "section 5.2.3",
+                "For k > 1 the cusp first crosses a pole (k = k1), then the equator (k = k̄).",
                 "It moves along the meridian of the start: θ = π before k1, θ = 0 after it; φ > π/2 before k̄, φ < π/2 after it. The crossing of the \
                  equator is at the start itself. k1 = 3/√8 and k̄ = 2/√3 in the limit p_θ → 0.",
             ));
         }
         claims.push(pole_claim(&branches));
         if !loops.is_empty() {
-            claims.push(Cases::of(loops).claim("self_intersections", "section 5.2.3", "For k ≥ k̄ the conjugate locus has self-intersections (and not before).",
+            claims.push(Cases::of(loops).claim(
+                "self_intersections",
+                "section 5.2.3",
+                "For k ≥ k̄ the conjugate locus has self-intersections (and not before).",
                 "Of one branch, p_θ ≥ 0, with itself; those of p_θ ≤ 0 are their mirror images. Fig. 5 examines more values of k.",
             ));
         }

@@ -157,3 +157,20 @@ impl Cases {
         claim(id, place, statement, Evidence::Direct(self.test()), note)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand: faults are counted among all cases, and the words of the first are kept.
+    #[test]
+    fn cases_keep_the_first_fault() {
+        let words = |text: &str| text.to_owned();
+        let mut cases = Cases::of([(true, words("right")), (false, words("first")), (false, words("second"))]);
+        cases.add(true, || words("third"));
+        assert!(!cases.is_empty() && Cases::default().is_empty());
+        assert_eq!(cases.test(), Test::None { counterexamples: 3, cases: 4, example: words("first") });
+        // Nothing examined proves nothing.
+        assert!(!Cases::default().test().holds() && Cases::of([(true, String::new())]).test().holds());
+    }
+}

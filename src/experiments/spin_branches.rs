@@ -470,7 +470,7 @@ pub mod tests {
         for claim in &preview.findings.claims {
             let holds = match &claim.evidence {
                 Evidence::Direct(test) => test.holds(),
-                Evidence::Slip { printed, corrected, .. } => !printed.holds() && corrected.holds(),
+                Evidence::OnlyWhen { inside, outside, .. } => inside.holds() && !outside.holds(),
                 _ => false,
             };
             assert!(holds, "{claim:?}");

@@ -368,7 +368,7 @@ impl Definition for Theorem {
                 "upper_bound",
                 "Corollary 3.7; Theorem 3.9, part 1",
                 "t1 < 3K(m)/M.",
-                Evidence::Direct(grid.beyond_smaller.clone().test()),
+                Evidence::Direct(grid.beyond_smaller.test()),
                 "t1 is the smaller |t| of both signs, as defined before Lemma 3.4: forward it is below 4K − ψ0, backward below 2K + ψ0, in \
                  units of 1/M.",
             ),
@@ -378,8 +378,8 @@ impl Definition for Theorem {
                 "The first conjugate time t > 0 is below 3K(m)/M, three quarters of a period.",
                 Evidence::OnlyWhen {
                     condition: "ψ0 ≥ K: the equator has been passed since the last turning point".to_owned(),
-                    inside: grid.beyond_late.clone().test(),
-                    outside: grid.beyond_early.clone().test(),
+                    inside: grid.beyond_late.test(),
+                    outside: grid.beyond_early.test(),
                 },
                 format!(
                     "For t > 0 alone the interval of Lemma 3.6 is (2K, 4K − ψ0], which is longer than 3K for ψ0 < K. Example: h = {h:?}, y0 = \
@@ -391,7 +391,7 @@ impl Definition for Theorem {
                 "true_upper_bound",
                 part_1,
                 "For the first t > 0: M t1 < 4K − ψ0, with ψ0 the phase since the last turning point.",
-                Evidence::Direct(grid.beyond_true.clone().test()),
+                Evidence::Direct(grid.beyond_true.test()),
                 "Not in the article: half a period plus the time to the first turning point.",
             ),
             claim(

@@ -20,7 +20,7 @@ use crate::effects::rotation_group::projected_conjugate_point_by_integration::{
 use crate::effects::rotation_group::projected_path::ProjectedPath;
 use crate::effects::rotation_group::start::{MomentumStart, allowed, tolerance};
 use crate::effects::scene::{Effect, EulerCase, Inertia};
-use crate::experiments::findings::unread;
+use crate::experiments::findings::{unread, value};
 use crate::experiments::nodes::Nodes;
 use crate::plot::axis::Axis;
 use crate::plot::mark::{Curve, Points};
@@ -244,10 +244,10 @@ impl RotationGroup {
         let asked: Vec<&str> = nodes.iter().filter(|(effect, _)| self.asks(*effect)).map(|(_, node)| *node).collect();
         let mut values = counts(tables, &asked);
         let mut time = |node: &str, column: &str, error: &str, name: String, meaning: String| {
-            let value = only(tables, node, column)?;
-            let error = only(tables, node, error)? * value;
-            let route = "first route; see the second one's table for the difference".to_owned();
-            values.push(NamedValue { name, value, unit: "time".to_owned(), meaning, route, error });
+            let time = only(tables, node, column)?;
+            let error = only(tables, node, error)? * time;
+            let route = "first route; see the second one's table for the difference";
+            values.push(value(name, (time, error), "time", meaning, route));
             Ok::<_, NodeError>(())
         };
         for i in 0..self.cases.len() {
