@@ -205,8 +205,8 @@ impl Family {
             Self::Separatrix { .. } | Self::EquatorCrossing { .. } | Self::Pole { .. } => (1.0, f64::EPSILON),
             // k below 1 must stay away from 0.
             Self::Round { .. } => (0.9, f64::EPSILON),
-            Self::LargeK { .. } => (1.0, 1e-12),
-            Self::SmallK { .. } => (1.0, 1e-30),
+            // As far as double-double is known to hold the truth.
+            Self::LargeK { .. } | Self::SmallK { .. } => (1.0, 1e-12),
             Self::LongTime { .. } => (1.0, 1e-10),
         }
     }
