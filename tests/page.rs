@@ -42,6 +42,27 @@ fn attributes<'h>(html: &'h str, name: &str) -> Vec<&'h str> {
     html.split(start.as_str()).skip(1).filter_map(|rest| rest.split('"').next()).collect()
 }
 
+/// The tags of pictures that have no name: neither words of their own nor an element of the page that holds them.
+fn nameless<'h>(html: &'h str, ids: &BTreeSet<&str>) -> Vec<&'h str> {
+    let tags = html.split('<').filter_map(|rest| rest.split('>').next());
+    let is_named = |tag: &str| {
+        let has_words = attributes(tag, "aria-label").iter().any(|words| !words.trim().is_empty());
+        let mut labels = attributes(tag, "aria-labelledby").into_iter().flat_map(str::split_whitespace).peekable();
+        has_words || (labels.peek().is_some() && labels.all(|id| ids.contains(id)))
+    };
+    tags.filter(|tag| tag.contains(" role=\"img\"") && !is_named(tag)).collect()
+}
+
+#[test]
+fn pictures_without_names_are_found() {
+    let html = r#"<h2 id="a">A</h2><svg role="img" aria-labelledby="a"><svg role="img" aria-label="B"><svg>"#;
+    let ids = BTreeSet::from(["a"]);
+    assert!(nameless(html, &ids).is_empty());
+    for bad in [r#"svg role="img""#, r#"svg role="img" aria-label=" ""#, r#"svg role="img" aria-labelledby="a b""#] {
+        assert_eq!(nameless(&format!("{html}<{bad}>"), &ids), [bad]);
+    }
+}
+
 /// Every link leads to a file that was made or to a place on the page; nothing is asked of the network; ids are unique; pictures have
 /// names.
 #[test]
@@ -61,7 +82,9 @@ fn every_link_resolves() {
         }
     }
     assert!(files > 200, "{files} links to files");
-    assert!(html.matches("<svg").count() >= html.matches("role=\"img\"").count());
+    assert!(html.matches(" role=\"img\"").count() >= 9, "nine figures and more");
+    let nameless = nameless(&html, &unique);
+    assert!(nameless.is_empty(), "{nameless:?}");
     let size = html.len();
     assert!(size < 5_000_000, "{size} bytes");
     assert!(

@@ -6,7 +6,9 @@
 
 use super::colour::Colour;
 use super::label::Label;
-use super::svg::{Anchor, Document, TextKind, TextStyle};
+use super::rect::TextKind;
+use super::svg::Document;
+use super::svg_text::{Anchor, TextStyle};
 use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind, FontTransform,

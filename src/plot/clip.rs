@@ -2,7 +2,7 @@
 //!
 //! Lines: Liang and Barsky, segment by segment. Polygons: Sutherland and Hodgman. A window's `top` is its smallest y.
 
-use super::svg::Rect;
+use super::rect::Rect;
 
 type Point = (f64, f64);
 

@@ -111,6 +111,18 @@ pub enum PlotError {
         /// The height.
         height_mm: f64,
     },
+    /// No font of a PDF has a character.
+    #[error(
+        "{character:?} (U+{code:04X}) in {text:?}: the standard fonts of a PDF do not have it; write the text with others, or give the \
+         character a code in plot/pdf.rs",
+        code = u32::from(*character)
+    )]
+    NoCharacter {
+        /// The character.
+        character: char,
+        /// The run of letters that it stands in.
+        text: String,
+    },
     /// plotters gave up.
     #[error("drawing failed: {0}")]
     Drawing(String),

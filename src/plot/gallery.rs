@@ -4,10 +4,10 @@
 use super::axis::Axis;
 use super::mark::{Area, Arrow, At, Band, Curve, DirectLabel, Points, RuleLine, Side, SphereCurve, SpherePoints, Text};
 use super::picture::{Cell, Corner, Inset, Layout, Legend, Panel, Picture, Place, ToneKey, View, Width};
+use super::rect::TextKind;
 use super::render::{flaws, render, text_boxes};
 use super::role::Role;
 use super::sphere::{from_colatitude, from_latitude};
-use super::svg::TextKind;
 use std::f64::consts::PI;
 
 fn sampled(count: usize, from: f64, to: f64, of: impl Fn(f64) -> (f64, f64)) -> Vec<(f64, f64)> {

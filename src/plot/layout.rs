@@ -4,7 +4,7 @@ use super::error::PlotError;
 use super::frame::{Frame, LABEL_SIZE, Margins, Span, axis_margins};
 use super::legend::key_width;
 use super::picture::{Aspect, Layout, Letter, Panel, Picture};
-use super::svg::Rect;
+use super::rect::Rect;
 
 /// Between neighbouring cells, in points.
 const GUTTER: f64 = 7.0;

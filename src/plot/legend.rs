@@ -9,8 +9,10 @@ use super::frame::{TEXT_SIZE, TICK_SIZE};
 use super::label::Label;
 use super::mark::Mark;
 use super::picture::ToneKey;
+use super::rect::{Rect, TextKind};
 use super::role::{Level, Marker, Role};
-use super::svg::{Anchor, Document, Rect, TextKind, TextStyle, hundredths};
+use super::svg::{Document, hundredths};
+use super::svg_text::{Anchor, TextStyle};
 
 /// Length of a sample line in points.
 const SAMPLE: f64 = 17.0;

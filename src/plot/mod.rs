@@ -6,7 +6,8 @@
 //! - `picture`, `axis`, `mark`, `role`, `label`: the data model an experiment builds.
 //! - `render`: checks the picture, lays the panels out, draws them; [`render::render`] is the one way out.
 //! - `layout`, `frame`, `ticks`, `pieces`, `sphere`, `clip`, `draw`, `place`, `legend`, `colour`, `font`: how.
-//! - `backend`: the plotters backend that reads plotters' integers as hundredths of a point; `svg`: the document it writes.
+//! - `backend`: the plotters backend that reads plotters' integers as hundredths of a point; `svg`, `svg_text`, `rect`:
+//!   the document it writes; `pdf`: the same page as PDF.
 //!
 //! Lengths on paper are points (1 pt = 1/72 inch) unless a name says millimetres. Coordinates that reach the page are
 //! whole hundredths of a point, so the bytes do not depend on how a platform prints floating-point numbers. This room does
@@ -28,10 +29,12 @@ pub mod pdf;
 pub mod picture;
 pub mod pieces;
 pub mod place;
+pub mod rect;
 pub mod render;
 pub mod role;
 pub mod sphere;
 pub mod svg;
+pub mod svg_text;
 pub mod ticks;
 
 #[cfg(test)]

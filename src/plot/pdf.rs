@@ -1,10 +1,12 @@
 //! The same page as PDF, for LaTeX: a document with one page of the figure's own size, written beside the SVG from the same shapes.
 //!
-//! Operators of PDF 1.4 (ISO 32000-1, sections 8 and 9) in plain text, not compressed. Lengths are points, y grows upwards. Texts are set in Helvetica
-//! and Symbol, two of the standard fonts that every reader has: they are named, not embedded. Nothing of time or place is written, so equal
+//! Operators of PDF 1.4 (ISO 32000-1, sections 8 and 9) in plain text, not compressed. Lengths are points, y grows upwards. Texts are set in Helvetica,
+//! Helvetica-Oblique, Helvetica-Bold and Symbol, four of the standard fonts that every reader has: they are named, not embedded. What none of
+//! them has is an error. Nothing of time or place is written, so equal
 //! figures are equal files.
 
 use super::colour::Colour;
+use super::error::PlotError;
 use super::font;
 use super::label::{Label, Run, Script};
 use std::fmt::Write as _;
@@ -13,6 +15,8 @@ use std::fmt::Write as _;
 const QUARTER: f64 = 0.552_284_75;
 /// Slant of italic letters in a font that has none.
 const SLANT: f64 = 0.21;
+/// Characters that only move the pen: the space and the thin space.
+const BLANKS: [char; 2] = [' ', '\u{2009}'];
 /// Width of the white rim around letters, points; half of it lies outside.
 const RIM: f64 = 1.5;
 
@@ -22,6 +26,8 @@ pub struct Ink {
     height: f64,
     operators: String,
     clips: Vec<(String, [f64; 4])>,
+    /// The first character that no font has, and the run that it stands in.
+    missing: Option<(char, String)>,
 }
 
 /// A coordinate in points.
@@ -189,7 +195,11 @@ impl Ink {
         let mut pen = start;
         for letter in run.text.chars() {
             let advance = f64::from(font::advance(letter, run.bold)) / 1000.0 * size;
-            if let Some((is_symbol, code)) = code(letter).filter(|_| letter != ' ') {
+            let found = code(letter);
+            if found.is_none() && !BLANKS.contains(&letter) {
+                self.missing.get_or_insert_with(|| (letter, run.text.clone()));
+            }
+            if let Some((is_symbol, code)) = found.filter(|_| !BLANKS.contains(&letter)) {
                 let face = match (is_symbol, run.bold, run.italic) {
                     (true, ..) => "S",
                     (_, true, _) => "B",
@@ -213,7 +223,13 @@ impl Ink {
     }
 
     /// The whole file.
-    pub fn finish(&self, width: i32, title: &str) -> Vec<u8> {
+    ///
+    /// # Errors
+    /// A text with a character that no font has.
+    pub fn finish(&self, width: i32, title: &str) -> Result<Vec<u8>, PlotError> {
+        if let Some((character, text)) = self.missing.clone() {
+            return Err(PlotError::NoCharacter { character, text });
+        }
         let font =
             |name: &str, encoding: &str| format!("<< /Type /Font /Subtype /Type1 /BaseFont /{name}{encoding} >>");
         let latin = " /Encoding /WinAnsiEncoding";
@@ -250,7 +266,7 @@ impl Ink {
             "trailer\n<< /Size {count} /Root 1 0 R /Info {} 0 R >>\nstartxref\n{table}\n%%EOF\n",
             objects.len()
         );
-        file.into_bytes()
+        Ok(file.into_bytes())
     }
 }
 
@@ -264,14 +280,43 @@ fn utf16(text: &str) -> String {
 mod tests {
     use super::*;
 
+    /// The letters of all texts of an SVG.
+    fn letters(svg: &str) -> String {
+        let texts = svg.split("<text").skip(1).filter_map(|rest| rest.split_once('>')?.1.split_once("</text>"));
+        // What is left of a tag after its '<' ends at '>'.
+        let plain = |text: &str| text.split('<').map(|part| part.rsplit('>').next().unwrap_or("").to_owned()).collect();
+        let escaped: String = texts.map(|(text, _)| plain(text)).collect::<Vec<String>>().concat();
+        [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&#39;", "'"), ("&amp;", "&")]
+            .iter()
+            .fold(escaped, |text, (from, to)| text.replace(from, to))
+    }
+
+    /// Every letter of every committed figure, of which there are fifteen.
     #[test]
-    fn every_character_of_our_labels_has_a_code() {
-        for letter in "abcXYZ0189 ()=+/,.²³°±×·…θφπξψωατδμρλΦΘΛΔ−√≤≥≈∞→∈′é".chars()
-        {
-            assert!(code(letter).is_some(), "{letter}");
+    fn every_character_of_our_figures_has_a_code() {
+        let folder = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/figures")).unwrap();
+        let is_svg = |path: &std::path::PathBuf| path.extension().is_some_and(|ending| ending == "svg");
+        let figures: Vec<_> = folder.map(|entry| entry.unwrap().path()).filter(is_svg).collect();
+        assert!(figures.len() >= 15, "{figures:?}");
+        for figure in figures {
+            let text = letters(&std::fs::read_to_string(&figure).unwrap());
+            assert!(text.chars().filter(|letter| letter.is_alphabetic()).count() > 10, "{figure:?}: {text}");
+            let missing: String = text.chars().filter(|letter| code(*letter).is_none()).collect();
+            assert!(missing.is_empty(), "{figure:?}: {missing}");
         }
         assert_eq!((code('θ'), code('Ω'), code('−')), (Some((true, b'q')), Some((true, b'W')), Some((true, 0x2d))));
-        assert_eq!(code('中'), None);
+        assert_eq!(letters("<text x=\"1\">a&lt;<tspan dy=\"2\">b</tspan>c</text><desc>中</desc>"), "a<bc");
+    }
+
+    #[test]
+    fn a_character_that_no_font_has_is_named() {
+        let mut ink = Ink::new(5000);
+        ink.text(&Label::parse("a\u{2009}b"), (10.0, 20.0), 8.0, Colour::BLACK, true, false);
+        assert!(ink.finish(5000, "中").is_ok(), "a thin space moves the pen; titles are in Unicode");
+        ink.text(&Label::parse("a 中 b"), (10.0, 20.0), 8.0, Colour::BLACK, true, false);
+        let refused = ink.finish(5000, "").unwrap_err();
+        assert_eq!(refused, PlotError::NoCharacter { character: '中', text: "a 中 b".to_owned() });
+        assert!(refused.to_string().starts_with("'中' (U+4E2D) in \"a 中 b\""), "{refused}");
     }
 
     /// The cross-reference table points at the objects, the stream is as long as it says.
@@ -284,7 +329,7 @@ mod tests {
         ink.circle((500, 500), 100, true, Colour::BLUE, 0);
         ink.close();
         ink.text(&Label::parse("*θ*_1 = π/2"), (10.0, 20.0), 8.0, Colour::BLACK, true, false);
-        let text = String::from_utf8(ink.finish(5000, "Ä title")).unwrap();
+        let text = String::from_utf8(ink.finish(5000, "Ä title").unwrap()).unwrap();
         assert!(text.contains("0.00 40.00 10.00 10.00 re W n"));
         let table = text.rfind("xref\n0 ").map(|at| text[at..].lines().skip(3).take(9).collect::<Vec<_>>()).unwrap();
         for (i, line) in table.iter().enumerate() {

@@ -4,7 +4,8 @@
 
 use super::label::Label;
 use super::mark::Side;
-use super::svg::{Anchor, Document, Rect};
+use super::rect::Rect;
+use super::svg_text::{Anchor, text_rect};
 
 type Point = (f64, f64);
 
@@ -63,7 +64,7 @@ pub fn beside(label: &Label, size: f64, point: Point, side: Side, gap: f64) -> S
         Side::BelowRight => (Anchor::Start, point.0 + near, point.1 + near + up),
         Side::Centre => (Anchor::Middle, point.0, point.1 + middle),
     };
-    Spot { at: (x, y), anchor, rect: Document::text_rect(label, (x, y), size, anchor, false) }
+    Spot { at: (x, y), anchor, rect: text_rect(label, (x, y), size, anchor, false) }
 }
 
 /// The same spot moved by the least that brings it inside.

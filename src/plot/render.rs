@@ -13,7 +13,9 @@ use super::mark::{Along, At, Side};
 use super::picture::{Corner, Inset, Legend, Panel, Picture, Place};
 use super::pieces::{self, Pieces, Target, Wish};
 use super::place::{self, GAP, SIDES, Scene, Spot};
-use super::svg::{Anchor, Document, Rect, TextBox, TextKind, TextStyle, hundredths};
+use super::rect::{Rect, TextBox, TextKind};
+use super::svg::{Document, hundredths};
+use super::svg_text::{Anchor, TextStyle};
 use std::cell::RefCell;
 use std::f64::consts::PI;
 use std::rc::Rc;
@@ -27,10 +29,10 @@ pub fn render(picture: &Picture) -> Result<Vec<u8>, PlotError> {
     Ok(page.finish(&picture.title, &picture.caption, &picture.metadata))
 }
 
-/// The SVG of a picture, and the same page as PDF; guarantee and errors as for [`render`].
+/// The SVG of a picture, and the same page as PDF; guarantee and errors as for [`render`], and a character that no font of a PDF has.
 pub fn render_both(picture: &Picture) -> Result<(Vec<u8>, Vec<u8>), PlotError> {
     let page = drawn(picture)?;
-    Ok((page.finish(&picture.title, &picture.caption, &picture.metadata), page.pdf(&picture.title)))
+    Ok((page.finish(&picture.title, &picture.caption, &picture.metadata), page.pdf(&picture.title)?))
 }
 
 /// The box of every text of a picture on its page: for tests that no text is cut off or covers another.

@@ -1,120 +1,18 @@
-//! The SVG document: groups, paths, texts with tspans, clip paths; sizes in millimetres, coordinates in points.
+//! The SVG document: groups, paths, texts, clip paths; sizes in millimetres, coordinates in points.
 //!
 //! Everything that reaches the page is a whole number of hundredths of a point, written exactly. The document remembers the
 //! box of every text, so that a test can ask whether texts overlap or leave the page. It knows no time, host or path.
 
 use super::colour::Colour;
-use super::font;
-use super::label::{Label, Run, Script};
+use super::error::PlotError;
+use super::label::Label;
 use super::pdf::Ink;
+use super::rect::{Rect, TextBox};
+use super::svg_text::{TextStyle, element, text_rect};
 use std::fmt::Write as _;
 
 /// Points in a millimetre: 72/25.4.
 pub const POINTS_PER_MM: f64 = 72.0 / 25.4;
-
-/// What a text is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum TextKind {
-    /// At a tick of a horizontal axis.
-    TickX,
-    /// At a tick of a vertical axis.
-    TickY,
-    /// Name of an axis.
-    AxisLabel,
-    /// Letter or title of a panel.
-    PanelTitle,
-    /// Beside a curve, a point or a line, or where the experiment put it.
-    Direct,
-    /// In a legend or a colour key.
-    Legend,
-}
-
-/// An upright rectangle on the page, in points from the upper left corner.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rect {
-    /// Left edge.
-    pub left: f64,
-    /// Upper edge.
-    pub top: f64,
-    /// Right edge.
-    pub right: f64,
-    /// Lower edge.
-    pub bottom: f64,
-}
-
-impl Rect {
-    /// Width.
-    pub fn width(&self) -> f64 {
-        self.right - self.left
-    }
-
-    /// Height.
-    pub fn height(&self) -> f64 {
-        self.bottom - self.top
-    }
-
-    /// Whether the two have more than `slack` points in common in both directions.
-    pub fn overlaps(&self, other: &Rect, slack: f64) -> bool {
-        self.left + slack < other.right
-            && other.left + slack < self.right
-            && self.top + slack < other.bottom
-            && other.top + slack < self.bottom
-    }
-
-    /// Whether `other` lies inside, up to `slack` points.
-    pub fn holds(&self, other: &Rect, slack: f64) -> bool {
-        other.left >= self.left - slack
-            && other.right <= self.right + slack
-            && other.top >= self.top - slack
-            && other.bottom <= self.bottom + slack
-    }
-
-    /// Larger by `by` points on every side.
-    pub fn grown(&self, by: f64) -> Rect {
-        Rect { left: self.left - by, top: self.top - by, right: self.right + by, bottom: self.bottom + by }
-    }
-}
-
-/// A text on the page and the room it takes.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TextBox {
-    /// The letters.
-    pub text: String,
-    /// What it is for.
-    pub kind: TextKind,
-    /// Its panel, counted from 0; `None` for the figure's own texts.
-    pub panel: Option<usize>,
-    /// Its box.
-    pub rect: Rect,
-}
-
-/// Which point of a text its position is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Anchor {
-    /// Its left end.
-    Start,
-    /// Its middle.
-    Middle,
-    /// Its right end.
-    End,
-}
-
-/// How a text is written.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TextStyle {
-    /// Font size in points.
-    pub size: f64,
-    /// Colour.
-    pub colour: Colour,
-    /// Which point of it its position is (vertically: always the base line).
-    pub anchor: Anchor,
-    /// With a white rim.
-    pub halo: bool,
-    /// Turned by a quarter, to be read from the right side of the page.
-    pub upright: bool,
-    /// What it is for.
-    pub kind: TextKind,
-}
 
 /// The line and fill that shapes inherit from their group.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,7 +54,8 @@ fn number(out: &mut String, value: i32) {
     };
 }
 
-fn text_of(value: i32) -> String {
+/// Hundredths as a decimal number.
+pub(super) fn text_of(value: i32) -> String {
     let mut out = String::new();
     number(&mut out, value);
     out
@@ -423,96 +322,25 @@ impl Document {
         let _ = writeln!(self.body, "{paint}/>");
     }
 
-    /// The box a text would take, in points, with its base line at `at`.
-    pub fn text_rect(label: &Label, at: (f64, f64), size: f64, anchor: Anchor, upright: bool) -> Rect {
-        let width = label.width(size);
-        let (up, down) = label.extent(size);
-        let before = match anchor {
-            Anchor::Start => 0.0,
-            Anchor::Middle => width / 2.0,
-            Anchor::End => width,
-        };
-        if upright {
-            // Read from the right: letters run upwards, their tops to the left.
-            Rect { left: at.0 - up, right: at.0 + down, top: at.1 - (width - before), bottom: at.1 + before }
-        } else {
-            Rect { left: at.0 - before, right: at.0 - before + width, top: at.1 - up, bottom: at.1 + down }
-        }
-    }
-
     /// Writes a text with its base line at `at` (points) and remembers its box.
     pub fn text(&mut self, label: &Label, at: (f64, f64), style: TextStyle) {
         if label.is_empty() {
             return;
         }
-        let rect = Self::text_rect(label, at, style.size, style.anchor, style.upright);
+        let rect = text_rect(label, at, style.size, style.anchor, style.upright);
         self.boxes.push(TextBox { text: label.to_plain(), kind: style.kind, panel: self.panel, rect });
         let before = if style.upright { rect.bottom - at.1 } else { at.0 - rect.left };
         let start = if style.upright { (at.0, at.1 + before) } else { (at.0 - before, at.1) };
         self.ink.text(label, start, style.size, style.colour, style.halo, style.upright);
         self.indent();
-        let (x, y) = (text_of(hundredths(at.0)), text_of(hundredths(at.1)));
-        let _ = write!(self.body, "<text x=\"{x}\" y=\"{y}\" font-size=\"{}\"", text_of(hundredths(style.size)));
-        let _ = write!(self.body, " fill=\"{}\"", style.colour.hex());
-        match style.anchor {
-            Anchor::Start => {}
-            Anchor::Middle => self.body.push_str(" text-anchor=\"middle\""),
-            Anchor::End => self.body.push_str(" text-anchor=\"end\""),
-        }
-        if style.halo {
-            self.body.push_str(" stroke=\"#ffffff\" stroke-width=\"1.5\" paint-order=\"stroke\"");
-        }
-        if style.upright {
-            let _ = write!(self.body, " transform=\"rotate(-90 {x} {y})\"");
-        }
-        self.body.push('>');
-        let (starts, _) = label.advances(style.size);
-        let (mut shift, mut pen) = (0, 0.0_f64);
-        for (run, start) in label.runs().iter().zip(starts) {
-            self.run(run, style.size, start - pen, &mut shift);
-            pen = start + super::label::run_width(run, style.size);
-        }
-        self.body.push_str("</text>\n");
-    }
-
-    /// One run as a tspan: moved by `move_by` points from where the pen is, raised or lowered from the current `shift`.
-    fn run(&mut self, run: &Run, size: f64, move_by: f64, shift: &mut i32) {
-        let wanted = match run.script {
-            Script::Base => 0,
-            Script::Sub => hundredths(font::SUB_SHIFT * size),
-            Script::Super => -hundredths(font::SUPER_SHIFT * size),
-        };
-        let mut attributes = String::new();
-        let dx = hundredths(move_by);
-        if dx != 0 {
-            let _ = write!(attributes, " dx=\"{}\"", text_of(dx));
-        }
-        if wanted != *shift {
-            let _ = write!(attributes, " dy=\"{}\"", text_of(wanted - *shift));
-            *shift = wanted;
-        }
-        if run.script != Script::Base {
-            let _ = write!(attributes, " font-size=\"{}\"", text_of(hundredths(font::SCRIPT_SIZE * size)));
-        }
-        if run.italic {
-            attributes.push_str(" font-style=\"italic\"");
-        }
-        if run.bold {
-            attributes.push_str(" font-weight=\"bold\"");
-        }
-        if run.over {
-            attributes.push_str(" text-decoration=\"overline\"");
-        }
-        let letters = escape(&run.text);
-        let _ = if attributes.is_empty() {
-            write!(self.body, "{letters}")
-        } else {
-            write!(self.body, "<tspan{attributes}>{letters}</tspan>")
-        };
+        self.body.push_str(&element(label, at, style));
     }
 
     /// The same page as PDF.
-    pub fn pdf(&self, title: &str) -> Vec<u8> {
+    ///
+    /// # Errors
+    /// A character that the fonts of a PDF do not have.
+    pub fn pdf(&self, title: &str) -> Result<Vec<u8>, PlotError> {
         self.ink.finish(self.width, title)
     }
 
@@ -593,26 +421,5 @@ mod tests {
         assert_eq!((short.first(), short.last()), (circle.first(), circle.last()));
         assert_eq!(simplified(&[(0, 0), (500, 0), (1000, 0), (300, 0)]), [(0, 0), (1000, 0), (300, 0)]);
         assert_eq!(simplified(&[]), []);
-    }
-
-    #[test]
-    fn scripts_are_moved_and_moved_back() {
-        let mut page = Document::new(89.0, 50.0);
-        let style = TextStyle {
-            size: 10.0,
-            colour: Colour::BLACK,
-            anchor: Anchor::Start,
-            halo: false,
-            upright: false,
-            kind: TextKind::Direct,
-        };
-        page.text(&Label::parse("x_1^2y"), (10.0, 20.0), style);
-        let text = String::from_utf8(page.finish("", "", &[])).unwrap();
-        // 5.56·0.72 = 4.00 back to the start of the subscript; −3.6 − 1.8 up; 3.6 down again.
-        assert!(text.contains(">x<tspan dy=\"1.8\" font-size=\"7.2\">1</tspan>"), "{text}");
-        assert!(
-            text.contains("<tspan dx=\"-4\" dy=\"-5.4\" font-size=\"7.2\">2</tspan><tspan dy=\"3.6\">y</tspan>"),
-            "{text}"
-        );
     }
 }

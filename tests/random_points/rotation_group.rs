@@ -6,6 +6,7 @@
 
 #![expect(clippy::unwrap_used, clippy::panic, reason = "helpers of tests")]
 
+use super::{Random, count};
 use polhode::effects::point::{Answer, Given, Inputs, Metric as Asked, PointError, answer};
 use polhode::geometry::rotation_group::attitude_route::first_conjugate_times_by_attitude;
 use polhode::geometry::rotation_group::conjugate::first_conjugate_times;
@@ -17,95 +18,73 @@ use polhode::numerics::double_double::DoubleDouble;
 use polhode::numerics::real::Real;
 use std::collections::BTreeMap;
 
-/// A linear congruential generator: the same points everywhere.
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+/// The relative gap between two neighbours of A, B, C.
+fn gap(random: &mut Random) -> f64 {
+    match random.below(6) {
+        0 => 0.0,
+        1 | 2 => random.log(1e-14, 1.0),
+        3 => random.log(1e-2, 1.0),
+        4 => random.unit(),
+        _ => random.log(1.0, 100.0),
     }
+}
 
-    fn below(&mut self, n: usize) -> usize {
-        ((self.unit() * n as f64) as usize).min(n - 1)
+fn inertia(random: &mut Random) -> [f64; 3] {
+    let a = random.log(1e-3, 1e3);
+    let b = a * (1.0 + gap(random));
+    let mut values = [a, b, b * (1.0 + gap(random))];
+    for i in [2, 1] {
+        let j = random.below(i + 1);
+        values.swap(i, j);
     }
+    values
+}
 
-    fn log(&mut self, from: f64, to: f64) -> f64 {
-        from * libm::pow(to / from, self.unit())
-    }
-
-    fn sign(&mut self) -> f64 {
-        if self.unit() < 0.5 { -1.0 } else { 1.0 }
-    }
-
-    /// The relative gap between two neighbours of A, B, C.
-    fn gap(&mut self) -> f64 {
-        match self.below(6) {
-            0 => 0.0,
-            1 | 2 => self.log(1e-14, 1.0),
-            3 => self.log(1e-2, 1.0),
-            4 => self.unit(),
-            _ => self.log(1.0, 100.0),
+/// A direction: anywhere, near an axis, on it, near the separating polhode.
+fn direction(random: &mut Random, inertia: [f64; 3]) -> [f64; 3] {
+    let anywhere = [0; 3].map(|_| 2.0 * random.unit() - 1.0);
+    match random.below(8) {
+        0 | 1 => anywhere,
+        2 => {
+            let mut axis = [0.0; 3];
+            axis[random.below(3)] = random.sign();
+            axis
         }
-    }
-
-    fn inertia(&mut self) -> [f64; 3] {
-        let a = self.log(1e-3, 1e3);
-        let b = a * (1.0 + self.gap());
-        let mut values = [a, b, b * (1.0 + self.gap())];
-        for i in [2, 1] {
-            let j = self.below(i + 1);
-            values.swap(i, j);
+        3..=5 => {
+            let (axis, common, alike) = (random.below(3), random.log(1e-15, 1.0), random.unit() < 0.5);
+            [0, 1, 2].map(|i| {
+                let off = if alike { common } else { random.log(1e-15, 1.0) } * (0.3 + random.unit());
+                random.sign() * if i == axis { 1.0 } else { off }
+            })
         }
-        values
-    }
-
-    /// A direction: anywhere, near an axis, on it, near the separating polhode.
-    fn direction(&mut self, inertia: [f64; 3]) -> [f64; 3] {
-        let anywhere = [0; 3].map(|_| 2.0 * self.unit() - 1.0);
-        match self.below(8) {
-            0 | 1 => anywhere,
-            2 => {
-                let mut axis = [0.0; 3];
-                axis[self.below(3)] = self.sign();
-                axis
+        _ => {
+            let mut order = [0, 1, 2];
+            order.sort_by(|i, j| inertia[*i].total_cmp(&inertia[*j]));
+            let [first, middle, third] = order;
+            let (low, high) = (inertia[middle] - inertia[first], inertia[third] - inertia[middle]);
+            let across = 2.0 * random.unit() - 1.0;
+            let mut there = anywhere;
+            if low > 0.0 && high > 0.0 {
+                there[first] = across * (high / (low + high)).sqrt();
+                there[third] = random.sign() * across * (low / (low + high)).sqrt();
+                there[third] *= 1.0 + random.sign() * random.log(1e-16, 1.0);
+                there[middle] = random.sign() * (1.0 - across * across).sqrt();
             }
-            3..=5 => {
-                let (axis, common, alike) = (self.below(3), self.log(1e-15, 1.0), self.unit() < 0.5);
-                [0, 1, 2].map(|i| {
-                    let off = if alike { common } else { self.log(1e-15, 1.0) } * (0.3 + self.unit());
-                    self.sign() * if i == axis { 1.0 } else { off }
-                })
-            }
-            _ => {
-                let mut order = [0, 1, 2];
-                order.sort_by(|i, j| inertia[*i].total_cmp(&inertia[*j]));
-                let [first, middle, third] = order;
-                let (low, high) = (inertia[middle] - inertia[first], inertia[third] - inertia[middle]);
-                let across = 2.0 * self.unit() - 1.0;
-                let mut there = anywhere;
-                if low > 0.0 && high > 0.0 {
-                    there[first] = across * (high / (low + high)).sqrt();
-                    there[third] = self.sign() * across * (low / (low + high)).sqrt();
-                    there[third] *= 1.0 + self.sign() * self.log(1e-16, 1.0);
-                    there[middle] = self.sign() * (1.0 - across * across).sqrt();
-                }
-                there
-            }
+            there
         }
     }
 }
 
 /// A point, as keys and as the start that the oracle takes; none where there is no start.
 fn draw(random: &mut Random) -> (Inputs, Option<Start>, [f64; 3], Option<[f64; 3]>) {
-    let inertia = random.inertia();
+    let inertia = inertia(random);
     let metric = Metric::new(inertia[0], inertia[1], inertia[2]).unwrap();
     let size = random.log(1e-6, 1e6);
     let number = |(key, x): (&str, f64)| (key.to_owned(), Given::Number(x));
     let [a, b, c] = inertia;
     let mut given = Inputs::from([("A", a), ("B", b), ("C", c)].map(number));
     if random.below(4) > 0 {
-        let momentum = random.direction(inertia).map(|x| x * size);
+        let momentum = direction(random, inertia).map(|x| x * size);
         let [x, y, z] = momentum;
         given.extend([("H1", x), ("H2", y), ("H3", z)].map(number));
         return (given, Start::new(&metric, momentum).ok(), inertia, Some(momentum));
@@ -152,7 +131,7 @@ fn long(x: f64) -> DoubleDouble {
 
 #[test]
 fn errors_are_honest_at_random_points() {
-    let count = std::env::var("POLHODE_RANDOM_POINTS").map_or(600, |text| text.parse::<usize>().unwrap());
+    let count = count(600);
     let mut random = Random(20_140_215);
     let (mut refused, mut impossible, mut violated, mut loose) = (0, 0, Vec::new(), 0);
     let (mut ratios, mut worst, mut integrated, mut routes) = (Vec::new(), (0.0, String::new()), 0, BTreeMap::new());
@@ -340,7 +319,7 @@ fn edges_of_the_format_do_no_harm() {
         1e160,
         1.7e308,
     ];
-    let count = std::env::var("POLHODE_RANDOM_POINTS").map_or(300, |text| text.parse::<usize>().unwrap() / 4);
+    let count = count(1200) / 4;
     let mut random = Random(4);
     for _ in 0..count {
         let keys: &[&str] = if random.below(2) == 0 {

@@ -6,6 +6,7 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that can't pose its question fails")]
 
+use super::{Random, count};
 use polhode::effects::point::{Answer, Given, Inputs, Metric as Asked, PointError, answer};
 use polhode::geometry::serret_andoyer::lanes::NoPoint;
 use polhode::geometry::serret_andoyer::reference::first_conjugate_point_to_reference;
@@ -16,96 +17,74 @@ use polhode::numerics::real::Real;
 type Inertia = [f64; 3];
 type Truth = Result<ConjugatePoint<DoubleDouble>, NoPoint>;
 
-/// A linear congruential generator: the same points everywhere.
-pub struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+/// A fraction of one: near zero, near one, or anywhere.
+fn fraction(random: &mut Random) -> f64 {
+    match random.below(5) {
+        0 | 1 => random.log(1e-16, 1.0),
+        2 | 3 => 1.0 - random.log(1e-16, 1.0),
+        _ => random.unit(),
     }
+}
 
-    fn below(&mut self, n: usize) -> usize {
-        ((self.unit() * n as f64) as usize).min(n - 1)
-    }
-
-    fn log(&mut self, from: f64, to: f64) -> f64 {
-        from * libm::pow(to / from, self.unit())
-    }
-
-    fn sign(&mut self) -> f64 {
-        if self.unit() < 0.5 { -1.0 } else { 1.0 }
-    }
-
-    /// A fraction of one: near zero, near one, or anywhere.
-    fn fraction(&mut self) -> f64 {
-        match self.below(5) {
-            0 | 1 => self.log(1e-16, 1.0),
-            2 | 3 => 1.0 - self.log(1e-16, 1.0),
-            _ => self.unit(),
-        }
-    }
-
-    fn inertia(&mut self) -> Inertia {
-        loop {
-            let (first, second) = match self.below(8) {
-                0 => (self.log(1.0, 1e15), self.log(1e-12, 1e6)),
-                1 | 2 => (self.log(0.1, 10.0), self.log(0.1, 10.0)),
-                _ => (self.log(1e-12, 1e6), self.log(1e-12, 1e6)),
-            };
-            let a = self.log(1e-6, 1e6);
-            let b = a + a * first;
-            let c = b + b * second;
-            if a < b && b < c {
-                return [a, b, c];
-            }
-        }
-    }
-
-    fn start(&mut self, inertia: Inertia) -> Start {
-        let [a, b, c] = inertia;
-        let metric = Metric::new(a, b, c).unwrap();
-        let branch = if self.unit() < 0.5 { Branch::Ascending } else { Branch::Descending };
-        let form = self.below(3);
-        if form == 2 {
-            let y0 = match self.below(5) {
-                0 => self.sign() * self.log(1e-16, 1.0),
-                1 => std::f64::consts::FRAC_PI_2 + self.sign() * self.log(1e-16, 1.0),
-                2 => self.sign() * self.log(1.0, 1e8),
-                3 => std::f64::consts::PI + self.sign() * self.log(1e-16, 1.0),
-                _ => 3.2 * self.unit(),
-            };
-            let p_x = self.sign() * self.log(1e-6, 1e6);
-            let sine = libm::sin(y0);
-            let most = p_x.abs() * (b - a).sqrt() * sine.abs() / metric.c_minus_z_of_cosine(sine).sqrt();
-            let p_y = match self.below(8) {
-                0 => 0.0,
-                1 => most * self.log(1.0, 1e6),
-                2 => most * self.log(1e-16, 1.0),
-                _ => most * self.fraction(),
-            };
-            return Start::Momenta { y0, p_x, p_y: self.sign() * p_y };
-        }
-        let most = (b - a) / a;
-        let delta = match self.below(5) {
-            0 | 1 => self.log(1e-16 * most.min(1.0), most),
-            2 => self.log(1e-15, 1.0).min(most),
-            _ => most * (1.0 - self.log(1e-16, 1.0)),
+fn inertia(random: &mut Random) -> Inertia {
+    loop {
+        let (first, second) = match random.below(8) {
+            0 => (random.log(1.0, 1e15), random.log(1e-12, 1e6)),
+            1 | 2 => (random.log(0.1, 10.0), random.log(0.1, 10.0)),
+            _ => (random.log(1e-12, 1e6), random.log(1e-12, 1e6)),
         };
-        let xi1 = ((b - a) - a * delta) / ((b - a) * (1.0 + delta));
-        let one_less = b * delta / ((b - a) * (1.0 + delta));
-        let edge = metric.phi_of_angle(polhode::geometry::serret_andoyer::darboux::FromEquator {
-            half_turns: 0.0,
-            sine: xi1.max(0.0).sqrt(),
-            cosine: one_less.sqrt(),
-        });
-        let phi0 = self.sign() * if self.below(20) == 0 { 0.0 } else { edge * self.fraction() };
-        if form == 0 {
-            return Start::Darboux { phi0, clairaut: Clairaut::Delta(delta), branch };
+        let a = random.log(1e-6, 1e6);
+        let b = a + a * first;
+        let c = b + b * second;
+        if a < b && b < c {
+            return [a, b, c];
         }
-        let p_theta = self.sign() * ((1.0 + delta) / b).sqrt();
-        Start::Darboux { phi0, clairaut: Clairaut::PTheta(p_theta), branch }
     }
+}
+
+fn start(random: &mut Random, inertia: Inertia) -> Start {
+    let [a, b, c] = inertia;
+    let metric = Metric::new(a, b, c).unwrap();
+    let branch = if random.unit() < 0.5 { Branch::Ascending } else { Branch::Descending };
+    let form = random.below(3);
+    if form == 2 {
+        let y0 = match random.below(5) {
+            0 => random.sign() * random.log(1e-16, 1.0),
+            1 => std::f64::consts::FRAC_PI_2 + random.sign() * random.log(1e-16, 1.0),
+            2 => random.sign() * random.log(1.0, 1e8),
+            3 => std::f64::consts::PI + random.sign() * random.log(1e-16, 1.0),
+            _ => 3.2 * random.unit(),
+        };
+        let p_x = random.sign() * random.log(1e-6, 1e6);
+        let sine = libm::sin(y0);
+        let most = p_x.abs() * (b - a).sqrt() * sine.abs() / metric.c_minus_z_of_cosine(sine).sqrt();
+        let p_y = match random.below(8) {
+            0 => 0.0,
+            1 => most * random.log(1.0, 1e6),
+            2 => most * random.log(1e-16, 1.0),
+            _ => most * fraction(random),
+        };
+        return Start::Momenta { y0, p_x, p_y: random.sign() * p_y };
+    }
+    let most = (b - a) / a;
+    let delta = match random.below(5) {
+        0 | 1 => random.log(1e-16 * most.min(1.0), most),
+        2 => random.log(1e-15, 1.0).min(most),
+        _ => most * (1.0 - random.log(1e-16, 1.0)),
+    };
+    let xi1 = ((b - a) - a * delta) / ((b - a) * (1.0 + delta));
+    let one_less = b * delta / ((b - a) * (1.0 + delta));
+    let edge = metric.phi_of_angle(polhode::geometry::serret_andoyer::darboux::FromEquator {
+        half_turns: 0.0,
+        sine: xi1.max(0.0).sqrt(),
+        cosine: one_less.sqrt(),
+    });
+    let phi0 = random.sign() * if random.below(20) == 0 { 0.0 } else { edge * fraction(random) };
+    if form == 0 {
+        return Start::Darboux { phi0, clairaut: Clairaut::Delta(delta), branch };
+    }
+    let p_theta = random.sign() * ((1.0 + delta) / b).sqrt();
+    Start::Darboux { phi0, clairaut: Clairaut::PTheta(p_theta), branch }
 }
 
 fn inputs([a, b, c]: Inertia, start: Start) -> Inputs {
@@ -170,18 +149,17 @@ struct Tally {
     ratios: Vec<f64>,
 }
 
-fn count() -> usize {
-    std::env::var("POLHODE_RANDOM_POINTS").ok().and_then(|n| n.parse().ok()).unwrap_or(4000)
-}
+/// What continuous integration draws.
+const SAMPLE: usize = 4000;
 
 #[test]
 fn errors_are_honest_and_answers_stable() {
     let mut random = Random(2014);
     let mut tally = Tally::default();
     let mut shown = 0;
-    for _ in 0..count() {
-        let inertia = random.inertia();
-        let start = random.start(inertia);
+    for _ in 0..count(SAMPLE) {
+        let inertia = inertia(&mut random);
+        let start = start(&mut random, inertia);
         let told = asked(inertia, start);
         let truth: Truth = first_conjugate_point_to_reference(inertia, start);
         let posed = || format!("{:?}", inputs(inertia, start));
@@ -393,9 +371,9 @@ fn mutated_inputs_are_answered_or_refused() {
     ];
     let mut random = Random(1963);
     let (mut answers, mut reasons, mut refusals, mut wrong) = (0, 0, 0, 0);
-    for _ in 0..count() {
-        let body = random.inertia();
-        let start = random.start(body);
+    for _ in 0..count(SAMPLE) {
+        let body = inertia(&mut random);
+        let start = start(&mut random, body);
         let mut given = inputs(body, start);
         for _ in 0..=random.below(2) {
             let key = given.keys().nth(random.below(given.len())).unwrap().clone();

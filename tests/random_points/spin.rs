@@ -4,6 +4,7 @@
 //! bulk, down to 1e-300 and up to 1e300, zero, next to the separatrix, next to the equator crossing (triple root) and next to a pole passage.
 //! Truth: the closed form in double-double for the doubles as given, which `hard_cases` holds against integration at 60 digits.
 
+use super::count;
 use polhode::effects::point::{Answer, Given, Inputs, Metric, PointError, answer};
 use polhode::geometry::spin::conjugate::{extremal, first_conjugate_point};
 use polhode::geometry::spin::extremal::Extremal;
@@ -132,7 +133,7 @@ fn condition(k: f64, p: f64, time: DoubleDouble) -> Result<f64, SpinError> {
 /// answer is stable: its error is at most 20 ε (1 + condition).
 #[test]
 fn random_starts_get_honest_and_stable_answers() {
-    let count = std::env::var("POLHODE_RANDOM_POINTS").ok().and_then(|text| text.parse().ok()).unwrap_or(SAMPLE);
+    let count = count(SAMPLE);
     let mut source = Source(2014);
     let (mut dishonest, mut ratios, mut worst) = (0, Vec::with_capacity(count), 0.0_f64);
     for index in 0..count {

@@ -60,8 +60,8 @@ const BEYOND: f64 = 1.2;
 const LONGEST_INTEGRATION: f64 = 2000.0;
 /// Half periods after which positions are not integrated.
 const MOST_HALF_PERIODS: f64 = 3000.0;
-/// The anisotropies of a family that keeps one: below, momenta near the meridian have no number ([`Start::new`]); above, a scan for a sign
-/// change in steps of the first conjugate time takes seconds.
+/// The anisotropies of a family that keeps one: below, momenta near the meridian are no start ([`Start::new`]); above, the scan of the
+/// printed forms for a change of sign takes seconds.
 const K: (f64, f64) = (0.02, 1000.0);
 /// The largest k whose equator crossing is looked for: far above it the crossing comes nearer to the separatrix than the bracket does.
 const LARGEST_K_OF_CROSSING: f64 = 5.0;
@@ -197,7 +197,7 @@ impl Family {
     /// The largest and the smallest distance that a sweep is made for.
     fn ends(&self) -> (f64, f64) {
         match self {
-            // p_θ is an input: as small as the meridian's neighbours are told apart from it.
+            // p_θ is an input: only the range of numbers ends it.
             Self::SmallMomentum { .. } => (1.0, 1e-300),
             // Powers of p_θ leave double-double beyond.
             Self::LargeMomentum { .. } => (1.0, 1e-100),
@@ -205,8 +205,8 @@ impl Family {
             Self::Separatrix { .. } | Self::EquatorCrossing { .. } | Self::Pole { .. } => (1.0, f64::EPSILON),
             // k below 1 must stay away from 0.
             Self::Round { .. } => (0.9, f64::EPSILON),
-            Self::LargeK { .. } => (1.0, 1e-12),
-            Self::SmallK { .. } => (1.0, 1e-30),
+            // As far as double-double is known to hold the truth.
+            Self::LargeK { .. } | Self::SmallK { .. } => (1.0, 1e-12),
             Self::LongTime { .. } => (1.0, 1e-10),
         }
     }
