@@ -363,7 +363,7 @@ pub const ALL: &[Statement] = &[
         note: concat!(
             "The argument turns round with the sign of τ: I(−2iK) = −2i(K − E) lies above −2iKΛ, so that every negative root is there, as the \
              corrected Lemma 3.6 says. It is this first negative root that gives the bound \
-             3K/M of Corollary 3.7. ",
+             3K/M of Corollary 3.7. The text at hand has the printed interval three times, once garbled. ",
             continued!()
         ),
     },

@@ -2,7 +2,7 @@
 //!
 //! Conjugate times are zeros of the integrated variation of (9).
 
-use super::bodies::{Body, Motion, by_differences, direct, exact};
+use super::bodies::{Body, Motion, by_differences, direct, exact, integral};
 use super::differences::{Wide, slope_of_order_4, wide};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
@@ -54,6 +54,33 @@ fn second_kind(form: Form) -> Result<Test, Unexamined> {
             _ => Wide::ONE - Wide::ONE / (j.sn * j.sn),
         };
         [left, right, Wide::ONE]
+    })
+}
+
+fn integral_of_15(form: Form) -> Result<Test, Unexamined> {
+    super::bodies::identity(616, 30, 1e-12, "Gauss-Legendre with 24 panels of ten points", |samples| {
+        let motion = Motion::ordinary(samples);
+        let motion = Motion { psi0: wide(samples.even(0.3, 1.0)) * motion.k, ..motion };
+        let pole = wide(2.0) * motion.k;
+        // Up to the first zero of sn, or beyond it with a small interval around it left out.
+        let end =
+            if form == 1 { pole * wide(1.0 + samples.even(0.1, 0.4)) } else { pole * wide(samples.even(0.55, 0.85)) };
+        let under = |u: Wide| {
+            let j = Jacobi::new(u, motion.m, motion.mc);
+            match form {
+                2 => Wide::ONE / (j.cn * j.cn),
+                3 => Wide::ONE / j.sn,
+                _ => Wide::ONE / (j.sn * j.sn),
+            }
+        };
+        let value = if form == 1 {
+            let off = pole * wide(0.05);
+            integral(under, motion.psi0, pole - off, 24) + integral(under, pole + off, end, 24)
+        } else {
+            integral(under, motion.psi0, end, 24)
+        };
+        let t = end - motion.psi0;
+        [value, t - rest_of_i(&motion, t), Wide::ONE]
     })
 }
 
@@ -173,6 +200,18 @@ pub const ALL: &[Statement] = &[
         second_kind,
         "From one side of a zero of sn to the other the integral diverges: there the left side defines I, as its continuation.",
     ),
+    Statement {
+        id: "integral_of_15",
+        place: "eq. (15), (17)",
+        says: "I(T) = ∫ du/sn²(u|m), from ψ0 to T + ψ0, is T − E(T + ψ0) + E(ψ0) − cn dn/sn + cn0 dn0/sn0.",
+        method: "quadrature; beyond the first zero of sn with an interval around it left out",
+        shape: Shape::OnlyWhen {
+            condition: "T + ψ0 < 2K(m); beyond it the integral diverges, and the right side, its continuation, is what the conjugate times solve",
+        },
+        forms: &["before the first zero of sn", "beyond it", "cn² for sn²", "sn for sn²"],
+        examine: integral_of_15,
+        note: "Every conjugate time lies beyond it.",
+    },
     direct(
         [
             "equation_15",
