@@ -7,7 +7,7 @@ use super::bodies::{Body, Motion, direct, identity, integral, unit};
 use super::darboux_form::{body_and_phi, z_at};
 use super::differences::{Wide, slope_of_order_4, slopes_of_order_4, wide};
 use super::first_return::{first_return, motion, step_of};
-use super::pendulum::states;
+use super::kinds_of_motion::states;
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::serret_andoyer::flow::{SerretAndoyerFlow, first_conjugate_time_by_integration};

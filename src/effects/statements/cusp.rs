@@ -7,7 +7,7 @@ use super::conjugate_locus::{locus, over_strip};
 use super::darboux_form::{body_and_phi, jacobi, z_at};
 use super::differences::{Wide, slopes_of_order_4, wide};
 use super::first_return::{body_and_clairaut, constants, motion};
-use super::pendulum::states;
+use super::kinds_of_motion::states;
 use super::statement::{Form, Samples, Shape, Statement, TRANSCRIPTION, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::serret_andoyer::flow::first_conjugate_time_by_integration;

@@ -5,7 +5,7 @@
 
 use super::bodies::{Body, Motion, by_differences, direct, exact, integral, unit};
 use super::differences::{Wide, slope_of_order_4, wide};
-use super::pendulum::{states, times_of};
+use super::kinds_of_motion::{states, times_of};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::serret_andoyer::flow::trajectory;

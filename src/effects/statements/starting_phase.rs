@@ -4,8 +4,8 @@
 
 use super::bodies::{Motion, direct};
 use super::differences::{Wide, wide};
+use super::kinds_of_motion::{states, times_of};
 use super::parameterization::{any_start, path_from, proposition};
-use super::pendulum::{states, times_of};
 use super::statement::{Cases, Form, Samples, Shape, Statement, TRANSCRIPTION, Unexamined, Worst};
 use crate::contract::claim::Test;
 use crate::numerics::real::Real;
