@@ -1,4 +1,4 @@
-//! Statements of sections 3.2.2 and 3.2.3, Lemma 3.6 to Corollary 3.11: where the roots of `I(τ) = Λτ` lie.
+//! Statements of section 3.2.2, Lemma 3.6 to Theorem 3.9: where the roots of `I(τ) = Λτ` lie.
 //!
 //! Roots are counted by structure, not by scanning: between two poles of `I`, at `2jK − ψ0`, `I(τ) − Λτ` grows, since `I' = 1/sn² ≥ 1 ≥ Λ`;
 //! so it has one root on an interval without a pole exactly when its signs at the ends differ.
@@ -6,15 +6,12 @@
 use super::bodies::{Body, Motion, by_differences, direct, exact, unit};
 use super::conjugate_times::{lambda, rest_of_i};
 use super::differences::{Wide, slope_of_order_4, wide};
-use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
+use super::statement::{Cases, Form, Samples, Shape, Statement, TRANSCRIPTION, Unexamined, unexamined};
 use crate::contract::claim::Test;
-use crate::geometry::serret_andoyer::flow::{SerretAndoyerFlow, first_conjugate_time_by_integration};
+use crate::geometry::serret_andoyer::flow::first_conjugate_time_by_integration;
 use crate::numerics::elliptic::complete::{complete_e, complete_k_minus_e};
-use crate::numerics::elliptic::jacobi::jacobi_epsilon;
 use crate::numerics::elliptic::mean::complete_k;
 use crate::numerics::real::Real;
-use crate::numerics::taylor::flow::{Columns, Joined, WithColumns};
-use crate::numerics::taylor::integrator::{Settings, integrate};
 
 /// `I(τ) − Λτ`.
 fn excess(motion: &Motion, tau: Wide) -> Wide {
@@ -305,73 +302,6 @@ fn half_period_falls(form: Form) -> Result<Test, Unexamined> {
     Ok(cases.none())
 }
 
-/// The variation `δy` of a rotating motion with the energy kept, and `y'`, by integration.
-fn variation(motion: &Motion, t: f64) -> Result<[f64; 3], Unexamined> {
-    let (flow, base) =
-        SerretAndoyerFlow::new(motion.body.short(), motion.y0().to_f64(), motion.p.to_f64(), motion.p_y().to_f64());
-    let (column, parameter) = flow.column(&base);
-    let system = WithColumns { flow, parameters: [parameter] };
-    let start = Joined { base, columns: Columns([column]) };
-    let arrival = integrate(&system, &start, (0.0, t), &Settings::new(1e-16), &mut ()).map_err(unexamined)?;
-    Ok([arrival.state.columns.0[0][0], flow.velocity(&arrival.state.base).1, parameter])
-}
-
-/// Left side of (20), with `∫ sn² = (T − E)/m`.
-fn left_of_20(motion: &Motion, t: Wide, form: Form) -> Wide {
-    let (Body { a, b, .. }, xi1, one) = (motion.body, motion.xi1, Wide::ONE);
-    let epsilon = |u: Wide| jacobi_epsilon(u, motion.m, motion.mc);
-    let squares = (t - epsilon(t + motion.psi0) + epsilon(motion.psi0)) / motion.m;
-    match form {
-        1 => b * t * xi1 - (b * xi1 + a * (xi1 - one)) * squares,
-        2 => b * t - (b * xi1 - a * (xi1 - one)) * squares,
-        3 => a * t * xi1 - (a * xi1 - b * (xi1 - one)) * squares,
-        _ => b * t * xi1 - (b * xi1 - a * (xi1 - one)) * squares,
-    }
-}
-
-fn equation_20(form: Form) -> Result<Test, Unexamined> {
-    let (mut samples, mut worst) = (Samples::new(714), Worst::default());
-    for _ in 0..100 {
-        let motion = Motion::ordinary_rotating(&mut samples);
-        let quarter = (motion.k / motion.speed).to_f64();
-        let (early, late) = (samples.even(0.2, 0.8) * quarter, samples.even(1.0, 4.0) * quarter);
-        // δy/y' is the left side of (20) times a constant of the motion: its quotient at two times.
-        let ([first, first_rate, _], [second, second_rate, _]) =
-            (variation(&motion, early)?, variation(&motion, late)?);
-        let left = |t: f64| left_of_20(&motion, wide(t) * motion.speed, form).to_f64();
-        worst.compare(second / second_rate * first_rate / first, left(late) / left(early), 0.0);
-    }
-    Ok(worst.at_most(1e-11, "rounding of an integration over two turns"))
-}
-
-fn rotations_have_none(form: Form) -> Result<Test, Unexamined> {
-    let (mut samples, mut worst) = (Samples::new(715), Cases::default());
-    for case in 0..150 {
-        let motion = match form {
-            1 => Motion::oscillating(&mut samples),
-            _ => Motion::rotating(&mut samples),
-        };
-        let (Body { a, b, .. }, xi1, one) = (motion.body, motion.xi1, Wide::ONE);
-        let t = wide(samples.log(1e-2, 100.0)) * motion.k;
-        let epsilon = |u: Wide| jacobi_epsilon(u, motion.m, motion.mc);
-        let squares = (t - epsilon(t + motion.psi0) + epsilon(motion.psi0)) / motion.m;
-        let sign = if form == 2 { -one } else { one };
-        let sum = b * xi1 * (t - squares) + sign * a * (xi1 - one) * squares;
-        let same = form != 0 || ((sum - left_of_20(&motion, t, 0)) / sum).abs() < wide(1e-15);
-        // Every third case by integration too: the variation keeps its sign.
-        let kept = form != 0 || case % 3 != 0 || {
-            let motion = Motion::ordinary_rotating(&mut samples);
-            let [delta, rate, parameter] =
-                variation(&motion, samples.even(1.0, 12.0) * (motion.k / motion.speed).to_f64())?;
-            -delta * rate * parameter > 0.0
-        };
-        worst.see(sum > Wide::ZERO && same && kept, || {
-            format!("ξ1 = {}, T/K = {}", xi1.to_f64(), (t / motion.k).to_f64())
-        });
-    }
-    Ok(worst.none())
-}
-
 /// What I is at conjugate times, for the notes.
 macro_rules! continued {
     () => {
@@ -380,8 +310,11 @@ macro_rules! continued {
 }
 
 const LEMMA: &str = "Lemma 3.6";
+
 const PROOF: &str = "proof of Lemma 3.6";
+
 const COUNTED: &str = "roots counted between the poles of I, where I(τ) − Λτ grows; random bodies, i up to three";
+
 const THEOREM: &str = "proof of Theorem 3.9";
 
 /// The statements of this page.
@@ -430,7 +363,7 @@ pub const ALL: &[Statement] = &[
         note: concat!(
             "The argument turns round with the sign of τ: I(−2iK) = −2i(K − E) lies above −2iKΛ, so that every negative root is there, as the \
              corrected Lemma 3.6 says. It is this first negative root that gives the bound \
-             3K/M of Corollary 3.7. ",
+             3K/M of Corollary 3.7. The text at hand has the printed interval three times, once garbled. ",
             continued!()
         ),
     },
@@ -517,7 +450,7 @@ pub const ALL: &[Statement] = &[
         shape: Shape::Slip { correction: "dξ1/dp_x = −4h/((B − A) p_x³)" },
         forms: &["as printed", "with B − A", "the sign", "p_x² below"],
         examine: slope_of_xi1,
-        note: "Known to us through a transcription of the page, which may have lost a sign, a root or a factor.",
+        note: TRANSCRIPTION,
     },
     direct(
         [
@@ -528,28 +461,6 @@ pub const ALL: &[Statement] = &[
         ],
         &["as printed", "it grows", "h for 2h in the limit", "4h for 2h in the limit"],
         half_period_falls,
-        "",
-    ),
-    direct(
-        [
-            "equation_20",
-            "eq. (20), Lemma 3.10",
-            "Along rotations δy/y' is proportional to BTξ1 − (Bξ1 − A(ξ1 − 1)) ∫ sn²(u) du, from ψ0 to ψ0 + T.",
-            "integrated variation of (9) at two times",
-        ],
-        &["as printed", "the sign of A(ξ1 − 1)", "without ξ1 in the first term", "A and B exchanged"],
-        equation_20,
-        "",
-    ),
-    direct(
-        [
-            "rotations_have_none",
-            "Corollary 3.11",
-            "(20) is Bξ1 ∫ cn² + A(ξ1 − 1) ∫ sn² = 0, a sum of positive terms: rotations have no conjugate points.",
-            "both forms up to fifty turns, and the sign of the integrated variation",
-        ],
-        &["as printed", "for oscillating motions", "the sign of the second term"],
-        rotations_have_none,
         "",
     ),
 ];

@@ -5,7 +5,7 @@
 
 use super::bodies::{Body, Motion, by_differences, direct, exact, gauss_points, integral, unit};
 use super::differences::{Wide, slope_of_order_4, wide};
-use super::pendulum::states;
+use super::kinds_of_motion::states;
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
 use crate::numerics::elliptic::incomplete::incomplete_f_sc;

@@ -6,7 +6,7 @@
 use super::bodies::{Body, Motion, direct, identity, unit};
 use super::darboux_form::{body_and_phi, half_width, z_at};
 use super::differences::{Wide, slope_of_order_4, slope_of_order_8, wide};
-use super::pendulum::states;
+use super::kinds_of_motion::states;
 use super::statement::{Cases, Form, Samples, Statement, Unexamined, Worst};
 use crate::contract::claim::Test;
 use crate::numerics::elliptic::complete::complete_pi;

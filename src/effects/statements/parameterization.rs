@@ -5,7 +5,7 @@
 
 use super::bodies::{Body, Motion, by_differences, direct, exact, integral, unit};
 use super::differences::{Wide, slope_of_order_4, wide};
-use super::pendulum::{states, times_of};
+use super::kinds_of_motion::{states, times_of};
 use super::statement::{Cases, Form, Samples, Shape, Statement, Unexamined, Worst, unexamined};
 use crate::contract::claim::Test;
 use crate::geometry::serret_andoyer::flow::trajectory;
@@ -183,7 +183,7 @@ fn definitions(form: Form) -> Result<Test, Unexamined> {
 }
 
 /// Proposition 3.2: `cos² y` and `x` after a time.
-fn proposition(motion: &Motion, t: Wide, form: Form) -> [Wide; 2] {
+pub fn proposition(motion: &Motion, t: Wide, form: Form) -> [Wide; 2] {
     let (Body { a, b, .. }, one, xi1) = (motion.body, Wide::ONE, motion.xi1);
     let (m, mc) = if form == 3 { (motion.mc, motion.m) } else { (motion.m, motion.mc) };
     let at = |u: Wide| Jacobi::new(u, m, mc);
@@ -206,7 +206,7 @@ fn proposition(motion: &Motion, t: Wide, form: Form) -> [Wide; 2] {
 }
 
 /// Any start of the motion's constants: `y0` on either side of the equator, `p_y` of either sign; and the sign of ψ0 that belongs to it.
-fn any_start(motion: &Motion, samples: &mut Samples) -> ([f64; 2], Wide) {
+pub fn any_start(motion: &Motion, samples: &mut Samples) -> ([f64; 2], Wide) {
     let (beyond, descends) = (samples.sign() < 0.0, samples.sign() < 0.0);
     let (y0, p_y) = (motion.y0().to_f64(), motion.p_y().to_f64());
     let start = [if beyond { std::f64::consts::PI - y0 } else { y0 }, if descends { -p_y } else { p_y }];
@@ -214,7 +214,7 @@ fn any_start(motion: &Motion, samples: &mut Samples) -> ([f64; 2], Wide) {
 }
 
 /// `[x, y, p_y]` after these times from any start.
-fn path_from(motion: &Motion, [y0, p_y]: [f64; 2], times: &[f64]) -> Result<Vec<[f64; 3]>, Unexamined> {
+pub fn path_from(motion: &Motion, [y0, p_y]: [f64; 2], times: &[f64]) -> Result<Vec<[f64; 3]>, Unexamined> {
     let [a, b, c] = motion.body.short();
     let (path, _) = trajectory(a, b, c, y0, motion.p.to_f64(), p_y, times, 1e-16).map_err(unexamined)?;
     Ok(path)
@@ -238,88 +238,6 @@ fn by_integration(form: Form, rotating: bool, component: usize) -> Result<Test, 
         }
     }
     Ok(worst.at_most(1e-12, "rounding of an integration over two periods"))
-}
-
-fn branch_of_phase(form: Form) -> Result<Test, Unexamined> {
-    let (mut samples, mut worst) = (Samples::new(514), Worst::default());
-    for case in 0..100 {
-        let motion =
-            if case % 2 == 0 { Motion::ordinary(&mut samples) } else { Motion::ordinary_rotating(&mut samples) };
-        // Starts under the condition have the positive ψ0; outside, all others.
-        let start = loop {
-            let (start, sign) = any_start(&motion, &mut samples);
-            if (sign > Wide::ZERO) == (form != 1) {
-                break start;
-            }
-        };
-        let psi0 = match form {
-            2 => -motion.psi0,
-            3 => motion.k - motion.psi0,
-            _ => motion.psi0,
-        };
-        let t = samples.even(0.1, 0.9) * (motion.k / motion.speed).to_f64();
-        let y = path_from(&motion, start, &[t])?[0][1];
-        let found = proposition(&Motion { psi0, ..motion }, wide(t), 0)[0].to_f64();
-        worst.see(found - libm::cos(y) * libm::cos(y));
-    }
-    Ok(worst.at_most(1e-12, "rounding of an integration over a quarter period"))
-}
-
-fn descending_branch(form: Form) -> Result<Test, Unexamined> {
-    let (mut samples, mut worst) = (Samples::new(515), Worst::default());
-    for case in 0..100 {
-        let motion =
-            if case % 2 == 0 { Motion::ordinary(&mut samples) } else { Motion::ordinary_rotating(&mut samples) };
-        let t = times_of(&motion, &mut samples, 4.0)[0];
-        let [x, y, _] = states(&motion, -motion.p_y().to_f64(), &[t])?[0];
-        let [xi, grown] = proposition(&motion, wide(if form == 1 { t } else { -t }), 0).map(|value| value.to_f64());
-        worst.see(xi - if form == 2 { libm::sin(y) * libm::sin(y) } else { libm::cos(y) * libm::cos(y) });
-        // Backward in time x falls.
-        worst.compare(if form == 1 || form == 3 { grown } else { -grown }, x, 0.0);
-    }
-    Ok(worst.at_most(1e-12, "rounding of an integration over a period"))
-}
-
-fn rest_is_zero_phase(form: Form) -> Result<Test, Unexamined> {
-    let (mut samples, mut cases) = (Samples::new(516), Cases::default());
-    for case in 0..200 {
-        let motion = Motion::oscillating(&mut samples);
-        // Phases ψ0 = jK, and any others. At rest cos² y0 = ξ1; cos² y0 at this phase is that of the proposition at t = 0.
-        let j = (case % 9) - 4;
-        let part = if case % 2 == 0 { 0.0 } else { samples.even(0.01, 0.99) };
-        let psi0 = wide(f64::from(j) + part) * motion.k;
-        let xi0 = proposition(&Motion { psi0, ..motion }, Wide::ZERO, 0)[0];
-        let rests = ((motion.xi1 - xi0) / motion.xi1).abs() < wide(1e-20);
-        let multiple = match form {
-            1 => 1,
-            2 => 4,
-            _ => 2,
-        };
-        let claimed = part == 0.0 && j % multiple == 0;
-        cases.see(rests == claimed, || format!("ψ0/K = {}", f64::from(j) + part));
-    }
-    Ok(cases.none())
-}
-
-fn starting_phase(form: Form, rotating: bool) -> Result<Test, Unexamined> {
-    let (mut samples, mut worst) = (Samples::new(511), Worst::default());
-    for _ in 0..200 {
-        let motion = if rotating { Motion::rotating(&mut samples) } else { Motion::oscillating(&mut samples) };
-        let (one, xi0, xi1) = (Wide::ONE, motion.cosine0 * motion.cosine0, motion.xi1);
-        let quotient = if rotating { (xi1 - one) * xi0 / (xi1 - xi0) } else { (one - xi1) * xi0 / (xi1 * (one - xi0)) };
-        let cn = match form {
-            0 => quotient,
-            2 => quotient * motion.cosine0,
-            3 if rotating => ((xi1 - one) * xi0 / xi1).sqrt(),
-            3 => ((one - xi1) * xi0 / xi1).sqrt(),
-            _ => quotient.sqrt(),
-        };
-        // The proposition's own cos² y at t = 0 with sn² = 1 − cn² must be cos² y0.
-        let (c2, s2) = (cn * cn, one - cn * cn);
-        let start = if rotating { xi1 * c2 / (xi1 - s2) } else { xi1 * c2 / (one - xi1 * s2) };
-        super::bodies::see(&mut worst, [start, xi0, Wide::ZERO]);
-    }
-    Ok(worst.at_most(1e-20, "double-double"))
 }
 
 fn periods(form: Form, rotating: bool) -> Result<Test, Unexamined> {
@@ -361,11 +279,13 @@ fn meeting(form: Form) -> Result<Test, Unexamined> {
 }
 
 const PLACE: &str = "section 3.2.1";
-const TRANSCRIPTION: &str =
-    "Known to us through a transcription of the page, which may have lost a sign, a root, an exponent or a factor.";
+
 const FIRST: &str = "Proposition 3.2 i";
+
 const SECOND: &str = "Proposition 3.2 ii";
+
 const BY_FLOW: &str = "power series of the flow (9), random bodies and starts, y0 on either side of the equator and p_y of either sign where it matters";
+
 const BY_CHAIN: &str = "y' of (9) and difference quotients";
 
 /// The statements of this page.
@@ -483,16 +403,6 @@ pub const ALL: &[Statement] = &[
         |form| by_integration(form, false, 1),
         "",
     ),
-    Statement {
-        id: "starting_phase",
-        place: FIRST,
-        says: "cn(ψ0|m) = (1 − ξ1) cos² y0/(ξ1 sin² y0).",
-        method: "cos² y(0) of the proposition with this cn",
-        shape: Shape::Slip { correction: "cn(ψ0|m) is the square root of that, η(0) of (14)" },
-        forms: &["as printed", "with the root", "one cos y0 too many", "without sin² y0"],
-        examine: |form| starting_phase(form, false),
-        note: TRANSCRIPTION,
-    },
     direct(
         ["xi_of_t_rotating", SECOND, "cos² y(t) = ξ1 cn²(Mt + ψ0|m)/(ξ1 − sn²(Mt + ψ0|m)).", BY_FLOW],
         &["as printed", "the sign below", "1 − m for m"],
@@ -508,48 +418,6 @@ pub const ALL: &[Statement] = &[
         ],
         &["as printed", "the sign of Π", "B for A", "1 − m for m"],
         |form| by_integration(form, true, 1),
-        "",
-    ),
-    Statement {
-        id: "starting_phase_rotating",
-        place: SECOND,
-        says: "cn(ψ0|m) = (ξ1 − 1) cos² y0/(ξ1 − cos² y0).",
-        method: "cos² y(0) of the proposition with this cn",
-        shape: Shape::Slip { correction: "cn(ψ0|m) is the square root of that" },
-        forms: &["as printed", "with the root", "one cos y0 too many", "ξ1 below"],
-        examine: |form| starting_phase(form, true),
-        note: TRANSCRIPTION,
-    },
-    Statement {
-        id: "branch_of_starting_phase",
-        place: "after Lemma 3.6",
-        says: "By construction ψ0 is in [0, K(m)].",
-        method: "cos² y of the proposition with the ψ0 of (14) against integrated motions, both kinds, y0 on either side of the equator",
-        shape: Shape::OnlyWhen { condition: "p_y(0) cos y0 ≥ 0; else −ψ0 is the phase, in [−K(m), 0]" },
-        forms: &["p_y cos y0 > 0", "p_y cos y0 < 0", "−ψ0", "K − ψ0"],
-        examine: branch_of_phase,
-        note: "cn knows ψ0 up to its sign only. The other starts are the mirror images, and their conjugate times are those of t < 0.",
-    },
-    direct(
-        [
-            "rest_is_zero_phase",
-            "proof of Lemma 3.4",
-            "cos² y0 = ξ1 if and only if ψ0 = 0 mod 2K(m).",
-            "cos² y0 of the proposition at multiples of K and between them",
-        ],
-        &["as printed", "mod K", "mod 4K"],
-        rest_is_zero_phase,
-        "",
-    ),
-    direct(
-        [
-            "descending_branch",
-            "after eq. (13)",
-            "With the other sign in (12), or with t < 0, the same formulas give the descending branch.",
-            "the proposition at −t against integrated motions with −p_y",
-        ],
-        &["as printed", "t for −t", "sin² y", "x not turned"],
-        descending_branch,
         "",
     ),
     direct(

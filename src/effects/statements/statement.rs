@@ -8,6 +8,10 @@ use crate::contract::claim::{Claim, Evidence, Test};
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 
+/// What a slip that may be the reader's and not the article's is noted with.
+pub const TRANSCRIPTION: &str =
+    "Known to us through a transcription of the page, which may have lost a sign, a root, an exponent or a factor.";
+
 /// Which form a check examines: an index into [`Statement::forms`].
 pub type Form = usize;
 

@@ -1,7 +1,7 @@
 //! The surfaces on which the statements of section 3.3.1 are checked, and their geodesics.
 //!
 //! `1/μ = W = 1 + aφ² + bφ⁴` has an equator, a mirror there, and a pendulum that is hard or soft by the choice of `b`. The Gauss curvature
-//! is `W''/(2W) − 3W'²/(4W²)`, `a` on the equator. For `0 ≤ b < 2a²/3` that is the largest, and the first return falls with `p_θ` (tame); for
+//! is `W''/(2W) − 3W'²/(4W²)`, `a` on the equator. For `b < 2a²/3` that is the largest, and the first return falls with `p_θ` (tame); for
 //! larger `b` it grows about the equator. Geodesics are integrated with the variation by `p_θ` by a Runge-Kutta pair that shares nothing with
 //! the closed forms. The substitution `φ = φ+ sin s` makes period and first return means over a turn.
 
