@@ -50,7 +50,8 @@ fn a_settled_run_is_known_and_a_changed_question_is_not() {
 /// mends it, and then everything is settled again.
 #[test]
 fn every_harm_to_every_file_is_noticed() {
-    let harms: [(&str, fn(&Path)); 4] = [
+    type Harm = (&'static str, fn(&Path));
+    let harms: [Harm; 4] = [
         ("deleted", |path| fs::remove_file(path).expect("removed")),
         ("truncated", |path| {
             let bytes = fs::read(path).expect("read");
