@@ -15,7 +15,7 @@
 //! then polished. Not known here: a proof that α and Θ(λ = nπ) are monotone in `k`; two changes of the same index
 //! inside one scan step, if there were such, would be missed.
 
-use super::extremal::Extremal;
+use super::extremal::{Extremal, Regime};
 use super::solve::{Quantity, SpinError, solve};
 use super::start::Start;
 use crate::numerics::double_double::DoubleDouble;
@@ -117,13 +117,16 @@ fn pole_angle<S: Real>(k: S, p_theta: S) -> Result<Sample<S>, SpinError> {
     let extremal = Extremal::new(k, p_theta.abs());
     let root = solve(&extremal, Quantity::Phase, S::ONE)?;
     let (zero, one, two, half_turn) = (S::ZERO, S::ONE, S::from_f64(2.0), S::from_f64(0.5));
-    // Rotating: β has made half_turns half turns, and so has the argument, backwards.
-    let half = (root.half_turns / two).floor();
-    let sign = if root.half_turns - two * half > half_turn && root.chi_turns == zero { -one } else { one };
-    let turned = if root.chi_turns == zero { -root.half_turns } else { zero };
+    // Rotating: β has made so many half turns, and so has the argument, backwards. (At k = 1 they are not counted apart: β = bt.)
+    let half_turns = match extremal.regime {
+        Regime::Round => (extremal.b * root.t / S::PI + half_turn).floor(),
+        _ if root.chi_turns == zero => root.half_turns,
+        _ => zero,
+    };
+    let sign = if half_turns - two * (half_turns / two).floor() > half_turn { -one } else { one };
     let across = -(two * k * k * root.sin_beta) * (root.beta_rate / extremal.casimir);
     let argument = (sign * across).atan2(sign * root.cos_beta);
-    let value = (one + root.chi_turns + turned) * S::PI + root.chi_rest + argument;
+    let value = (one + root.chi_turns - half_turns) * S::PI + root.chi_rest + argument;
     let lambda_rate = extremal.casimir / (two * extremal.ellipse(root.sin_beta, root.cos_beta));
     let rounding = lambda_rate * root.t * root.error + S::from_f64(4.0) * S::EPSILON * value.abs();
     Ok(Sample { value, rounding, t: root.t })
@@ -258,6 +261,25 @@ mod tests {
         (Passage::Equator, 2, 0.3, 1.173865356684086375726, 6.2815865378660723245),
         (Passage::Equator, 3, 0.3, 1.364068943634060879113, 9.4237387576476601059),
     ];
+
+    /// The angle is continuous across k = 1, where the pendulum is uniform: a range that begins there has the switches of one that begins
+    /// just above, and one around it none at 1. (With p_θ = 2 and more the first switch is beyond 1.5.)
+    #[test]
+    fn nothing_switches_at_the_round_case() {
+        for p in [0.5, 1.5, 1.9, 2.0, 2.5, 3.0, 5.0] {
+            let at = |low| switch_points(Passage::Pole, p, low, 1.5).unwrap();
+            let expected: Vec<(u32, f64)> = at(1.0 + 1e-7).iter().map(|switch| (switch.index, switch.k)).collect();
+            assert_eq!(expected.is_empty(), p >= 2.0, "{p}: {expected:?}");
+            for low in [0.5, 0.9, 1.0] {
+                let found = at(low);
+                assert_eq!(found.len(), expected.len(), "{p} from {low}: {found:?}");
+                let is_same = |(switch, (index, k)): (&SwitchPoint, &(u32, f64))| {
+                    switch.index == *index && (switch.k - k).abs() <= switch.error
+                };
+                assert!(found.iter().zip(&expected).all(is_same), "{p} from {low}: {found:?}, {expected:?}");
+            }
+        }
+    }
 
     /// The reference is rounded: half a unit in the last place of what has 22 digits and more.
     #[test]
