@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 pub mod accuracy_picture;
+pub mod accuracy_report;
 pub mod arguments;
 pub mod check;
 pub mod collected;
