@@ -188,11 +188,12 @@ mod tests {
         ];
         assert_eq!(unchanged_from(&measured), Some(Accuracy::Asked(1e-8)));
         assert_eq!(faster(&measured, Accuracy::Draft), Some(20.0));
-        // A tighter level that moves again counts against the looser ones.
-        measured[2] = found(Accuracy::Article, 0.5, 0.2);
-        assert_eq!(unchanged_from(&measured), None);
         let text = as_text("fig7", &measured, "a machine");
         assert!(text.contains("draft") && text.contains("20.0 times faster") && text.contains("0.088 mm"), "{text}");
+        // A tighter level that moves again counts against the looser ones; then no level is told.
+        measured[2] = found(Accuracy::Article, 0.5, 0.2);
+        assert_eq!(unchanged_from(&measured), None);
+        assert!(!as_text("fig7", &measured, "a machine").contains("0.088 mm"));
         let json = as_json("fig7", &measured, "a machine", &[]);
         assert_eq!(json["levels"].as_array().map(Vec::len), Some(4));
         assert_eq!(json["levels"][0]["picture"]["visible"], true);

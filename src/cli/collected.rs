@@ -17,7 +17,7 @@ pub const VALUES_FILE: &str = "values.toml";
 pub const KIND: Kind = Kind {
     name: "values",
     summary: "the named values of all experiments",
-    code: &["check/values_toml.rs", "cli/collected.rs", "contract/claim.rs", "contract/value.rs"],
+    code: &["check/number.rs", "check/values_toml.rs", "cli/collected.rs", "contract/claim.rs", "contract/value.rs"],
     measurement: false,
 };
 
