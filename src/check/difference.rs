@@ -2,7 +2,7 @@
 //!
 //! Tables are compared where they match row by row: as many rows, the same columns, the same integers, booleans and texts. Where samples are placed by what
 //! was computed, rows may differ: then the table is told as not comparable, never forced. Columns that hold errors and differences are left
-//! out: they say how far results are off, and are no results ([`NO_RESULTS`]).
+//! out: they say how far results are off, and are no results ([`NO_RESULTS`]). Rows whose `k` differs are other starts: there `k` alone is compared.
 //!
 //! A difference of a column is relative to the largest number in the reference's column; of positions (angles, lengths) below one, absolute: a coordinate near
 //! zero is not wrong by its own size, nor is a column of them.
@@ -27,6 +27,10 @@ pub const NO_RESULTS: [&str; 10] = [
 
 /// Units of positions.
 const POSITIONS: [&str; 2] = ["rad", "length"];
+
+/// The column whose numbers may be a sample's place and a result in one: beside a switch, k is placed by the switch as found, an ulp apart at two levels,
+/// and t1 has a vertical tangent there. It is compared itself; other columns are where it is the same.
+const START: &str = "k";
 
 /// The largest difference, and where it is.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -84,11 +88,16 @@ impl Differences {
             return;
         }
         self.tables_compared += 1;
+        let is_same_start = |row: usize| {
+            let k = |table: &Table| table.f64s(START).ok().and_then(|k| k.get(row).copied());
+            k(ours).map(f64::to_bits) == k(reference).map(f64::to_bits)
+        };
         for (own, other) in ours.columns().iter().zip(reference.columns()).filter(|(own, _)| is_result(&own.name)) {
             let (Data::F64(own_numbers), Data::F64(numbers)) = (&own.data, &other.data) else { continue };
             let least: f64 = if POSITIONS.contains(&other.unit.as_str()) { 1.0 } else { 0.0 };
             let scale = numbers.iter().filter(|x| x.is_finite()).fold(least, |scale, x| scale.max(x.abs()));
-            for (x, y) in own_numbers.iter().zip(numbers).filter(|(x, y)| !(x.is_nan() && y.is_nan())) {
+            let rows = own_numbers.iter().zip(numbers).enumerate().filter(|(_, (x, y))| !(x.is_nan() && y.is_nan()));
+            for (_, (x, y)) in rows.filter(|(row, _)| own.name == START || is_same_start(*row)) {
                 let apart = (x - y).abs();
                 self.columns.take(if apart > 0.0 { apart / scale } else { 0.0 }, || format!("{name}: {}", own.name));
             }
@@ -131,6 +140,19 @@ mod tests {
         differences.add_table("a", &table(vec![2.0, 4.5], vec![0.0, 9.0], vec![0, 1]), &reference);
         assert_eq!(differences.columns.size, 0.125);
         assert_eq!((differences.columns.place.as_str(), differences.tables_compared), ("a: t", 1));
+        // Another k is another start: how far k itself is off counts, what comes of it does not.
+        let at = |k: f64, t1| {
+            Table::builder("beside", "test")
+                .column("k", "1", "k", vec![k])
+                .column("t1", "time", "t1", vec![t1])
+                .build()
+                .unwrap()
+        };
+        let mut beside = Differences::default();
+        beside.add_table("beside", &at(1.25, 9.0), &at(1.0, 6.0));
+        assert_eq!((beside.columns.size, beside.columns.place.as_str()), (0.25, "beside: k"));
+        beside.add_table("same", &at(1.0, 9.0), &at(1.0, 6.0));
+        assert_eq!((beside.columns.size, beside.columns.place.as_str()), (0.5, "same: t1"));
         // An angle that is zero but for rounding is right.
         let angle = |x| Table::builder("points", "test").column("phi", "rad", "φ", vec![x]).build().unwrap();
         differences.add_table("angles", &angle(1e-16), &angle(-2e-16));

@@ -87,10 +87,19 @@ pub fn polygon(path: &Kept<f64>, k: f64, t_end: f64) -> Option<Vec<ChartPoint>> 
 pub fn self_intersections(path: &Kept<f64>, k: f64, points: &[ChartPoint]) -> Vec<SelfIntersection> {
     let mut found: Vec<SelfIntersection> = Vec::new();
     let t_end = points.last().map_or(0.0, |point| point.t);
+    let sides: Vec<Bounds> = points.windows(2).map(|side| Bounds::of(side[0], side[1])).collect();
+    let blocks: Vec<Bounds> =
+        sides.chunks(BLOCK).map(|block| block.iter().copied().fold(Bounds::NOTHING, Bounds::with)).collect();
     for (j, second) in points.windows(2).enumerate() {
         let (c, d) = (second[0], second[1]);
-        for first in points.windows(2).take(j.saturating_sub(1)) {
-            let (a, b) = (first[0], first[1]);
+        let earlier = j.saturating_sub(1);
+        let near = (0..earlier.div_ceil(BLOCK)).filter(|block| !blocks[*block].is_apart(&sides[j]));
+        for i in near.flat_map(|block| block * BLOCK..((block + 1) * BLOCK).min(earlier)) {
+            // Boxes that are apart: nearly all pairs end here, and most with their blocks.
+            if sides[i].is_apart(&sides[j]) {
+                continue;
+            }
+            let (a, b) = (points[i], points[i + 1]);
             let Some((u, v)) = crossing((a, b), (c, d)) else { continue };
             let guess = (a.t + u * (b.t - a.t), c.t + v * (d.t - c.t));
             let Some(polished) = polish(path, k, t_end, guess) else { continue };
@@ -104,15 +113,36 @@ pub fn self_intersections(path: &Kept<f64>, k: f64, points: &[ChartPoint]) -> Ve
     found
 }
 
+/// Sides that are compared together first.
+const BLOCK: usize = 16;
+
+/// What sides cover of the chart.
+#[derive(Clone, Copy)]
+struct Bounds {
+    theta: (f64, f64),
+    phi: (f64, f64),
+}
+
+impl Bounds {
+    const NOTHING: Self = Self { theta: (f64::INFINITY, f64::NEG_INFINITY), phi: (f64::INFINITY, f64::NEG_INFINITY) };
+
+    fn of(a: ChartPoint, b: ChartPoint) -> Self {
+        Self { theta: (a.theta.min(b.theta), a.theta.max(b.theta)), phi: (a.phi.min(b.phi), a.phi.max(b.phi)) }
+    }
+
+    fn with(self, other: Self) -> Self {
+        let joined = |a: (f64, f64), b: (f64, f64)| (a.0.min(b.0), a.1.max(b.1));
+        Self { theta: joined(self.theta, other.theta), phi: joined(self.phi, other.phi) }
+    }
+
+    fn is_apart(&self, other: &Self) -> bool {
+        let apart = |a: (f64, f64), b: (f64, f64)| a.1 < b.0 || b.1 < a.0;
+        apart(self.phi, other.phi) || apart(self.theta, other.theta)
+    }
+}
+
 /// Where on two sides, as fractions, they cross.
 fn crossing((a, b): (ChartPoint, ChartPoint), (c, d): (ChartPoint, ChartPoint)) -> Option<(f64, f64)> {
-    // Boxes that are apart first: nearly all pairs end here.
-    if a.phi.max(b.phi) < c.phi.min(d.phi) || c.phi.max(d.phi) < a.phi.min(b.phi) {
-        return None;
-    }
-    if a.theta.max(b.theta) < c.theta.min(d.theta) || c.theta.max(d.theta) < a.theta.min(b.theta) {
-        return None;
-    }
     let (bx, by) = (b.theta - a.theta, b.phi - a.phi);
     let (dx, dy) = (d.theta - c.theta, d.phi - c.phi);
     let (cx, cy) = (c.theta - a.theta, c.phi - a.phi);
