@@ -88,7 +88,7 @@ mod tests {
                 printed,
                 ours: 1.23456,
                 tolerance: 5e-5,
-                reason: "half a unit".to_owned(),
+                reason: "half a unit of the last printed digit".to_owned(),
             }),
             note: String::new(),
         };

@@ -3,7 +3,7 @@
 use super::claims::Judged;
 use super::content::{Content, PageError};
 use super::markup::{escape, formulas, number, rough, row};
-use crate::contract::claim::{Evidence, Test};
+use crate::contract::claim::{Evidence, LAST_PRINTED_DIGIT, Test};
 use std::fmt::Write as _;
 
 fn head(page: &mut String, columns: &[&str]) {
@@ -25,7 +25,7 @@ fn last_digit(printed: f64) -> f64 {
     libm::pow(10.0, -(decimals as f64))
 }
 
-/// Values that the article prints, beside ours.
+/// Numbers that the article prints, beside ours.
 pub fn printed_values(page: &mut String, content: &Content, claims: &[Judged<'_>]) {
     head(page, &["value", "article", "ours", "difference in its last digit", "where"]);
     let mut in_order: Vec<&Judged<'_>> = claims.iter().collect();
@@ -35,7 +35,11 @@ pub fn printed_values(page: &mut String, content: &Content, claims: &[Judged<'_>
             Evidence::Direct(test) | Evidence::Slip { printed: test, .. } => test,
             _ => continue,
         };
-        let Test::Equal { printed, ours, .. } = test else { continue };
+        let Test::Equal { printed, ours, reason, .. } = test else { continue };
+        // Others compare with a formula of the article, which has no last digit.
+        if !reason.contains(LAST_PRINTED_DIGIT) {
+            continue;
+        }
         let cells = [
             format!(
                 "<a href=\"#claim-{0}-{1}\">{2}</a>",

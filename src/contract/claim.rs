@@ -5,6 +5,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// What the reason of a tolerance says where a claim's number stands in the article digit by digit: half a unit of the last printed digit.
+pub const LAST_PRINTED_DIGIT: &str = "of the last printed digit";
+
 /// A statement of the article with the evidence of an experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
