@@ -7,7 +7,7 @@
 //! The whole article means its experiments: those it does not have are left out, and so are those that no level changes (statements are checked and hard
 //! cases are computed at the accuracy that each of them says). Both are named.
 //!
-//! Times are the shortest of up to `REPEATS` runs: of compute nodes alone, and with drawing and reading values. They are measurements: on stdout and in
+//! Times are the shortest of up to `REPEATS` runs on one core: of compute nodes alone, and with drawing and reading values. They are measurements: on stdout and in
 //! `OUT/measured/`, in nothing that is committed or compared.
 
 use crate::check::difference::Differences;
@@ -96,6 +96,8 @@ pub fn run(arguments: &AccuracyArguments) -> Result<Exit, ConsoleError> {
 fn answered(arguments: &AccuracyArguments) -> Result<(String, Exit), Refused> {
     let levels = levels(arguments)?;
     let scope = scope(arguments)?;
+    // How well work spreads over cores is not what accuracy costs. A pool that is there already has its own number of threads.
+    let _ = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
     let name = arguments.target.as_deref().map_or(WHOLE.to_owned(), |target| {
         Path::new(target).file_stem().map_or(target.to_owned(), |stem| stem.to_string_lossy().into_owned())
     });

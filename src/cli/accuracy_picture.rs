@@ -43,7 +43,7 @@ pub fn picture(name: &str, measured: &[Measured], machine: &str) -> Picture {
     }
     Picture::new(Width::Double, 92.0, format!("What accuracy costs in time: {name}"))
         .caption(format!(
-            "Measured on {machine}: time of all compute nodes of {name} at each level, run alone one after another from nothing, against the largest \
+            "Measured on one core of {machine}: time of all compute nodes of {name} at each level, run one after another from nothing, against the largest \
              difference of its numbers to those at the level reference (double-double arithmetic, integrations to 1e-28, rounded). Differences of \
              named values are relative; those of table columns are relative to the column's largest number (of positions: absolute below one), for tables that match row by row. A \
              difference of zero is drawn at 1e-17. Closed forms have no tolerance: at all levels but the reference they are evaluated in f64."

@@ -76,7 +76,8 @@ pub(super) fn as_text(name: &str, measured: &[Measured], machine: &str) -> Strin
     }
     let _ = writeln!(
         text,
-        "\nOff: the largest difference to the reference, of named values relative, of columns of tables relative to their largest number (of positions: absolute below one).\n\
+        "\nComputing: on one core, without writing the tables.\n\
+         Off: the largest difference to the reference, of named values relative, of columns of tables relative to their largest number (of positions: absolute below one).\n\
          Moved: the largest distance of what is drawn from the same in the reference's picture; + where a group of marks is in one picture only.\n\
          Closed forms have no tolerance: at all levels but the reference they are evaluated in f64, and what a looser level changes is what is integrated."
     );
