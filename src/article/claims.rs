@@ -1,7 +1,7 @@
 //! The claims table: every statement with its evidence and its verdict, those that need attention first.
 //!
-//! Verdicts come from the evidence by the rules of the `check` room. Where a part has a table with the columns `id`, `method`, `wrong_forms` and
-//! `refused`, a claim of that id also says how it was checked and how many wrong forms of it the same check refused.
+//! Verdicts come from the evidence by the rules of the `check` room. Where a part has a table with the columns `id` and `method`, a claim of that id
+//! also says how it was checked; each says how many wrong forms of it the same check refused.
 
 use super::content::{Content, Part};
 use super::markup::{escape, formulas, row};
@@ -63,12 +63,11 @@ pub fn verdict_line(claims: &[Judged<'_>]) -> String {
     line
 }
 
-/// How a claim was checked, and how many of its wrong forms were refused.
-fn checked(judged: &Judged<'_>) -> Option<(String, i64, i64)> {
+/// How a claim was checked.
+fn method(judged: &Judged<'_>) -> Option<String> {
     judged.part.tables.iter().find_map(|(_, _, table)| {
         let at = table.texts("id").ok()?.iter().position(|id| *id == judged.claim.id)?;
-        let (wrong, refused) = (table.ints("wrong_forms").ok()?, table.ints("refused").ok()?);
-        Some((table.texts("method").ok()?.get(at)?.clone(), *wrong.get(at)?, *refused.get(at)?))
+        table.texts("method").ok()?.get(at).cloned()
     })
 }
 
@@ -92,9 +91,14 @@ pub fn add(page: &mut String, claims: &[Judged<'_>]) {
             let _ = write!(statement, "<br><small>{}</small>", formulas(&claim.note));
         }
         let mut shown = formulas(evidence);
-        if let Some((method, wrong, refused)) = checked(judged) {
-            let _ =
-                write!(shown, "<br><small>{}; wrong forms refused: {refused} of {wrong}</small>", formulas(&method));
+        if let Some(method) = method(judged) {
+            let _ = write!(shown, "<br><small>{}</small>", formulas(&method));
+        }
+        if !claim.wrong.is_empty() {
+            let (all, survivors) = (claim.wrong.len(), claim.survivors().count());
+            let forms: Vec<&str> = claim.wrong.iter().map(|wrong| wrong.form.as_str()).collect();
+            let (refused, forms) = (all - survivors, escape(&forms.join("; ")));
+            let _ = write!(shown, "<br><small title=\"{forms}\">wrong forms refused: {refused} of {all}</small>");
         }
         let cells = [
             format!("<span class=\"badge {}\">{}</span>", verdict.name(), words(*verdict)),

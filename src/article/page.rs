@@ -91,6 +91,7 @@ mod tests {
                 reason: "half a unit of the last printed digit".to_owned(),
             }),
             note: String::new(),
+            wrong: Vec::new(),
         };
         let part = Part {
             id: "fig1".to_owned(),

@@ -1,6 +1,6 @@
 //! The report of a check, as data and as text: claims, goldens, references, agreement of routes.
 //!
-//! What fails: a verdict that is not the pinned one, a reference missed, two routes that disagree (class 5 of the exit
+//! What fails: a verdict that is not the pinned one, a wrong form of a claim that is not refused, a reference missed, two routes that disagree (class 5 of the exit
 //! codes); any other difference from a golden (class 6). A statement of the article that is found false, as pinned, is a
 //! result. With `strict`, a golden that is missing or belongs to another config fails as well.
 //!
@@ -68,6 +68,10 @@ pub struct ClaimLine {
     pub evidence: String,
     /// Why numbers differ, or under which condition the statement holds.
     pub note: String,
+    /// Forms of it that are wrong on purpose.
+    pub wrong_forms: Vec<String>,
+    /// Those of them that the same check takes for right.
+    pub surviving: Vec<String>,
 }
 
 impl ClaimLine {
@@ -159,10 +163,12 @@ pub fn check(subjects: &[Subject], references: &References, strict: bool) -> Rep
 }
 
 fn judged(experiment: String, claim: &Claim, pinned: Option<Verdict>) -> ClaimLine {
-    let Claim { id, place, statement, evidence, note } = claim.clone();
+    let Claim { id, place, statement, evidence, note, wrong } = claim.clone();
+    let surviving = claim.survivors().map(|survivor| survivor.form.clone()).collect();
     let judgement = judge(&evidence);
     let (verdict, evidence) = (judgement.verdict, judgement.evidence);
-    ClaimLine { experiment, id, place, statement, verdict, pinned, evidence, note }
+    let wrong_forms = wrong.into_iter().map(|wrong| wrong.form).collect();
+    ClaimLine { experiment, id, place, statement, verdict, pinned, evidence, note, wrong_forms, surviving }
 }
 
 fn route(experiment: String, claim: &Claim) -> RouteLine {
@@ -202,6 +208,7 @@ impl Report {
             Comparison::NotComparable { .. } | Comparison::Missing => self.strict,
         };
         if self.goldens.iter().any(verdict)
+            || self.claims.iter().any(|line| !line.surviving.is_empty())
             || self.routes.iter().any(|line| !line.agree)
             || self.references.iter().any(missed)
         {
@@ -227,7 +234,8 @@ impl Report {
     fn write_claims(&self, text: &mut String) -> std::fmt::Result {
         writeln!(text, "Claims of the article")?;
         for line in &self.claims {
-            let ClaimLine { experiment, id, place, statement, verdict, pinned, evidence, note } = line;
+            let ClaimLine { experiment, id, place, statement, verdict, pinned, evidence, note, wrong_forms, surviving } =
+                line;
             let surprise = match pinned {
                 Some(pinned) if line.is_surprise() => format!(" (pinned: {pinned})"),
                 _ => String::new(),
@@ -237,6 +245,12 @@ impl Report {
             writeln!(text, "      {evidence}")?;
             if !note.is_empty() {
                 writeln!(text, "      {note}")?;
+            }
+            for form in surviving {
+                writeln!(text, "      NOT REFUSED, though wrong: {form}")?;
+            }
+            if surviving.is_empty() && !wrong_forms.is_empty() {
+                writeln!(text, "      wrong forms refused: {}", wrong_forms.len())?;
             }
         }
         Ok(())
@@ -307,6 +321,7 @@ mod tests {
             statement: "t1 = 1".to_owned(),
             evidence: Evidence::Direct(Test::Equal { printed: 1.0, ours, tolerance: 0.1, reason: String::new() }),
             note: String::new(),
+            wrong: Vec::new(),
         }
     }
 

@@ -23,6 +23,33 @@ pub struct Claim {
     /// Why the numbers differ, or under which condition the statement holds; empty where there is nothing to say.
     #[serde(default)]
     pub note: String,
+    /// Forms of the statement that are wrong on purpose, tested as it is: none may hold, or the check would not tell right from wrong.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub wrong: Vec<WrongForm>,
+}
+
+/// A form of a statement that is wrong on purpose: a sign, a factor, a neighbouring digit, a bound on the other side.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WrongForm {
+    /// What it says in the place of what is right.
+    pub form: String,
+    /// The test of it.
+    pub test: Test,
+}
+
+impl Claim {
+    /// With one more form that has to be refused.
+    #[must_use]
+    pub fn refusing(mut self, form: impl Into<String>, test: Test) -> Self {
+        self.wrong.push(WrongForm { form: form.into(), test });
+        self
+    }
+
+    /// The wrong forms that the check takes for right.
+    pub fn survivors(&self) -> impl Iterator<Item = &WrongForm> {
+        self.wrong.iter().filter(|wrong| wrong.test.holds())
+    }
 }
 
 /// One comparison: a number against what it should be.

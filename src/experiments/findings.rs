@@ -18,7 +18,8 @@ pub fn claim(
     evidence: Evidence,
     note: impl Into<String>,
 ) -> Claim {
-    Claim { id: id.to_owned(), place: place.to_owned(), statement: statement.into(), evidence, note: note.into() }
+    let (id, place, statement, note) = (id.to_owned(), place.to_owned(), statement.into(), note.into());
+    Claim { id, place, statement, evidence, note, wrong: Vec::new() }
 }
 
 /// A named value with the bound of its absolute error.

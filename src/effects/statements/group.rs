@@ -105,17 +105,17 @@ impl Compute for Statements {
         let text = |of: &dyn Fn(usize) -> String| (0..examined.len()).map(of).collect::<Vec<String>>();
         let counts = |of: &dyn Fn(usize) -> usize| (0..examined.len()).map(|i| of(i) as i64).collect::<Vec<i64>>();
         let gap = |margin: Option<f64>| margin.unwrap_or(f64::NAN);
-        let least = |i: usize| examined[i].variants.iter().filter_map(|variant| margin(&variant.test)).reduce(f64::min);
+        let least = |i: usize| examined[i].claim.wrong.iter().filter_map(|wrong| margin(&wrong.test)).reduce(f64::min);
         let table = Table::builder("statements", "statements of the article and what became of them")
             .column("id", "", "the statement's name", text(&|i| examined[i].claim.id.clone()))
             .column("place", "", "where it stands in the article", text(&|i| examined[i].claim.place.clone()))
             .column("method", "", "how it was checked", text(&|i| examined[i].method.clone()))
-            .column("wrong_forms", "1", "forms that are wrong on purpose", counts(&|i| examined[i].variants.len()))
+            .column("wrong_forms", "1", "forms that are wrong on purpose", counts(&|i| examined[i].claim.wrong.len()))
             .column(
                 "refused",
                 "1",
                 "of them, those that the same check refused",
-                counts(&|i| examined[i].variants.len() - examined[i].survivors().count()),
+                counts(&|i| examined[i].claim.wrong.len() - examined[i].claim.survivors().count()),
             )
             .column_with_gaps(
                 "margin",
@@ -130,7 +130,7 @@ impl Compute for Statements {
                 (0..examined.len()).map(|i| gap(least(i))).collect::<Vec<f64>>(),
             )
             .column("survivors", "", "wrong forms that were not refused", {
-                text(&|i| examined[i].survivors().map(|variant| variant.form.clone()).collect::<Vec<_>>().join("; "))
+                text(&|i| examined[i].claim.survivors().map(|wrong| wrong.form.clone()).collect::<Vec<_>>().join("; "))
             })
             .column("claim", "", "the claim with its evidence, as JSON", claims)
             .build()
@@ -168,8 +168,8 @@ mod tests {
             Evidence::OnlyWhen { inside, outside, .. } => inside.holds() && !outside.holds(),
             Evidence::NotChecked { .. } => return None,
         };
-        let survivors: Vec<_> = done.survivors().collect();
-        let is_right = stands && done.variants.len() >= 2 && survivors.is_empty();
+        let survivors: Vec<_> = done.claim.survivors().collect();
+        let is_right = stands && done.claim.wrong.len() >= 2 && survivors.is_empty();
         (!is_right).then(|| format!("{}: {:?}, surviving: {survivors:?}", statement.id, done.claim.evidence))
     }
 }

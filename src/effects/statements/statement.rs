@@ -4,7 +4,7 @@
 //! examines any of them and returns what it measured; a wrong form that passes shows that the check is worth nothing. Verdicts follow from
 //! the tests by the rules of the `check` room; none is written by hand.
 
-use crate::contract::claim::{Claim, Evidence, Test};
+use crate::contract::claim::{Claim, Evidence, Test, WrongForm};
 use serde::{Deserialize, Serialize};
 use std::fmt::Display;
 
@@ -79,31 +79,13 @@ pub fn unexamined<E: Display>(error: E) -> Unexamined {
     Unexamined(error.to_string())
 }
 
-/// What became of a form that is wrong on purpose.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Variant {
-    /// What is wrong with it.
-    pub form: String,
-    /// Its test.
-    pub test: Test,
-}
-
 /// A statement, examined.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Examined {
-    /// The claim with its evidence.
+    /// The claim with its evidence and its wrong forms.
     pub claim: Claim,
     /// How it was checked.
     pub method: String,
-    /// The wrong forms.
-    pub variants: Vec<Variant>,
-}
-
-impl Examined {
-    /// The wrong forms that the check let pass: there should be none.
-    pub fn survivors(&self) -> impl Iterator<Item = &Variant> {
-        self.variants.iter().filter(|variant| variant.test.holds())
-    }
 }
 
 impl Statement {
@@ -127,8 +109,8 @@ impl Statement {
             Shape::NotChecked { reason } => Evidence::NotChecked { reason: reason.to_owned() },
         };
         let wrong = self.shape.own_forms()..self.forms.len();
-        let variants = wrong
-            .map(|form| Ok(Variant { form: self.forms[form].to_owned(), test: test(form)? }))
+        let wrong = wrong
+            .map(|form| Ok(WrongForm { form: self.forms[form].to_owned(), test: test(form)? }))
             .collect::<Result<Vec<_>, Unexamined>>()?;
         let claim = Claim {
             id: self.id.to_owned(),
@@ -136,8 +118,9 @@ impl Statement {
             statement: self.says.to_owned(),
             evidence,
             note: self.note.to_owned(),
+            wrong,
         };
-        Ok(Examined { claim, method: self.method.to_owned(), variants })
+        Ok(Examined { claim, method: self.method.to_owned() })
     }
 }
 
@@ -267,7 +250,7 @@ mod tests {
         let examined = PYTHAGORAS.examined().unwrap();
         let Evidence::Slip { printed, corrected, .. } = &examined.claim.evidence else { panic!("{examined:?}") };
         assert!(!printed.holds() && corrected.holds());
-        assert_eq!((examined.variants.len(), examined.survivors().count()), (2, 0));
+        assert_eq!((examined.claim.wrong.len(), examined.claim.survivors().count()), (2, 0));
     }
 
     #[test]

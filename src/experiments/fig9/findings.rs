@@ -340,5 +340,6 @@ fn transformation_claim(params: &Params, tables: &Tables) -> Result<Claim, NodeE
         note: "With the principal value l is off by π where p2 sin Φ2 < 0; (9) has period π in y and does not notice, the momentum in the \
                body changes sign."
             .to_owned(),
+        wrong: Vec::new(),
     })
 }
