@@ -2,8 +2,6 @@
 //!
 //! Claims about this program itself ("not in the article", "all … of this experiment") are no statements of the article.
 
-#![expect(clippy::panic, reason = "helpers of tests")]
-
 mod support;
 
 use polhode::cli::collected;
