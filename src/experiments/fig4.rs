@@ -9,12 +9,14 @@
 //! where the point passes the equator, `t1(k)` and φ(k) have vertical tangents (`|k − k̄|^(1/3)`). Both are refined
 //! geometrically.
 
+mod claims;
+
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{Cases, claim, unread, value};
+use super::findings::{unread, value};
 use super::nodes::{Nodes, TableRef};
 use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
-use crate::contract::claim::{Claim, Evidence, Test};
+use crate::contract::claim::Claim;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
@@ -28,7 +30,7 @@ use crate::plot::axis::Axis;
 use crate::plot::mark::{Curve, Points, RuleLine, Side, Text};
 use crate::plot::picture::{Legend, Panel, Picture, Width};
 use crate::plot::role::Role;
-use crate::table::{Table, Tables};
+use crate::table::Tables;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
@@ -80,7 +82,7 @@ const PICTURE: Kind = picture_kind(
         "experiments/scenes",
         "experiments/spin_branches.rs",
         "experiments/findings.rs",
-        "experiments/fig4.rs",
+        "experiments/fig4",
         "plot",
         "table",
     ],
@@ -94,7 +96,7 @@ const FINDINGS: Kind = findings_kind(
         "experiments/scenes",
         "experiments/spin_branches.rs",
         "experiments/findings.rs",
-        "experiments/fig4.rs",
+        "experiments/fig4",
         "table",
     ],
 );
@@ -102,9 +104,6 @@ const CURVE: &str = "conjugate-point-versus-k";
 const CURVE_CHECK: &str = "conjugate-point-versus-k-by-integration";
 const SWITCHES: &str = "switch-points";
 const SWITCHES_CHECK: &str = "switch-points-by-integration";
-const PLACE: &str = "section 5.2.1, Fig. 4";
-/// θ counts as 0 or π when it is this near: a thousandth of a radian, invisible in the figure.
-const NEAR: f64 = 1e-3;
 
 struct Fig4;
 
@@ -236,17 +235,7 @@ impl Definition for Fig4 {
     }
 
     fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
-        let mut claims = Vec::new();
-        if params.scene.asks_for(Effect::SwitchPoints) {
-            claims.extend(printed_switches(&switches(tables, params.scene.start.p_theta)?));
-            claims.extend(limit_claim(params, tables)?);
-            claims.push(switch_routes_agree(params, tables)?);
-        }
-        if params.scene.asks_for(Effect::ConjugateLocus) {
-            claims.push(meridian_claim(tables)?);
-            claims.push(curve_routes_agree(tables)?);
-        }
-        Ok(claims)
+        claims::claims(params, tables)
     }
 }
 
@@ -297,101 +286,6 @@ fn curve_values(tables: &Tables) -> Result<[NamedValue; 2], NodeError> {
             "closed form against power series, in double-double next to vertical tangents",
         ),
     ])
-}
-
-/// What the article prints about k1, k2, k3 and k̄.
-fn printed_switches(found: &[Switch]) -> Vec<Claim> {
-    let poles: Vec<&Switch> = found.iter().filter(|switch| switch.pole).collect();
-    let mut claims = Vec::new();
-    for (switch, printed) in poles.iter().zip([1.061, 1.250, 1.429]) {
-        let (name, reason) = (switch.name(), "half a unit of the last printed digit".to_owned());
-        let test = Test::Equal { printed, ours: switch.k, tolerance: 0.5e-3, reason };
-        claims.push(claim(&name, PLACE, format!("{name} is approximately {printed:.3}."), Evidence::Direct(test), ""));
-    }
-    let reason = "a count; the range of k is scanned for every whole turn".to_owned();
-    let test = Test::Equal { printed: 3.0, ours: poles.len() as f64, tolerance: 0.0, reason };
-    let statement = "θ of the first conjugate point switches three times for k in [1, 1.5].";
-    claims.push(claim("three_switches", PLACE, statement, Evidence::Direct(test), ""));
-    let [first, second, third] = poles[..] else { return claims };
-    let (below, above) = (second.k - first.k, third.k - second.k);
-    let known = first.error + 2.0 * second.error + third.error;
-    let cases = Cases::of([((below - above).abs() > known, format!("{below:?} and {above:?}"))]);
-    let note = format!("They are {below:.12} and {above:.12}.");
-    claims.push(cases.claim("unequal_steps", PLACE, "k2 − k1 differs from k3 − k2.", note));
-    if let Some(bar) = found.iter().find(|switch| !switch.pole) {
-        let cases = Cases::of([(first.k < bar.k && bar.k < second.k, format!("{:?}", bar.k))]);
-        let statement = "The conjugate point crosses the equator at a k̄ between k1 and k2.";
-        let note = "A second crossing, k̄', lies between k2 and k3.";
-        claims.push(cases.claim("k_bar_between", PLACE, statement, note));
-    }
-    claims
-}
-
-fn limit_claim(params: &Params, tables: &Tables) -> Result<Option<Claim>, NodeError> {
-    let Some(smallest) = params.limit.p_theta.iter().copied().reduce(f64::min) else { return Ok(None) };
-    let found = switches(tables, smallest)?;
-    let apart = found.iter().map(|switch| (switch.k - switch.limit).abs() - switch.error);
-    let test = Test::AtMost {
-        measured: apart.fold(0.0, f64::max),
-        tolerance: smallest * smallest + 2.0 * f64::EPSILON,
-        reason: format!("they differ from their limits by less than p_θ², here for p_θ = {smallest:?}, and rounding"),
-    };
-    Ok(Some(claim(
-        "limits",
-        "beyond the article",
-        "For p_θ → 0 the switch points tend to (2n+1)/√(8n) (poles) and n/√(2n−1) (equator).",
-        Evidence::Direct(test),
-        "On the meridian w tan t = tan(wt), w² = 1 − 1/k²; a pole is t = (n+½)π, w = (2n−1)/(2n+1), the equator \
-         t = nπ, w = (n−1)/n.",
-    )))
-}
-
-fn switch_routes_agree(params: &Params, tables: &Tables) -> Result<Claim, NodeError> {
-    let (mut measured, mut tolerance): (f64, f64) = (0.0, 0.0);
-    for (p_theta, _) in momenta(params) {
-        let check = tables.get(&at(SWITCHES_CHECK, p_theta)).map_err(unread)?;
-        measured = check.f64s("difference").map_err(unread)?.iter().copied().fold(measured, f64::max);
-        tolerance = check.f64s("allowed").map_err(unread)?.iter().copied().fold(tolerance, f64::max);
-    }
-    let reason = "the closed form's own error in k, a few units in its last place".to_owned();
-    let statement = "Closed form and integration give the same switch points.";
-    let test = Test::AtMost { measured, tolerance, reason };
-    Ok(claim("switch_routes_agree", "all switch points of this experiment", statement, Evidence::Direct(test), ""))
-}
-
-fn meridian_claim(tables: &Tables) -> Result<Claim, NodeError> {
-    let table = tables.get(CURVE).map_err(unread)?;
-    let width = jump_width(table)?;
-    let k = table.f64s("k").map_err(unread)?;
-    let whole = k.last().zip(k.first()).map_or(0.0, |(last, first)| last - first);
-    let test = Test::AtMost {
-        measured: width / whole,
-        tolerance: 1e-6,
-        reason: "share of the range of k in which θ is farther than 1e-3 rad from 0 and π; the figure shows no less \
-                 than 1e-3"
-            .to_owned(),
-    };
-    let statement = "θ of the first conjugate point only takes approximately the values 0 and π: it lies on the \
-                     meridian of the start.";
-    let note = format!(
-        "θ passes continuously from π to 0 and back, since r3 is of order p_θ³ and not 0; it is farther than 1e-3 rad \
-         from both within less than {width:.1e} of k in all."
-    );
-    Ok(claim("theta_is_0_or_pi", PLACE, statement, Evidence::Direct(test), note))
-}
-
-fn curve_routes_agree(tables: &Tables) -> Result<Claim, NodeError> {
-    let check = Check::read(tables)?;
-    let test = Test::AtMost {
-        measured: check.in_bounds,
-        tolerance: 1.0,
-        reason: "in units of what each row allows: a hundred times the accuracy asked for (1e-12), or the closed \
-                 form's own bound next to the vertical tangents at the equator"
-            .to_owned(),
-    };
-    let statement = "Closed form and integration give the same conjugate times.";
-    let note = format!("{} of {} rows needed double-double.", check.long, check.rows);
-    Ok(claim("routes_agree", "all conjugate times of this experiment", statement, Evidence::Direct(test), note))
 }
 
 /// The momenta of the switch points, the scene's first, with the config keys they come from.
@@ -462,19 +356,6 @@ fn switches(tables: &Tables, p_theta: f64) -> Result<Vec<Switch>, NodeError> {
     Ok((0..table.rows()).map(row).collect())
 }
 
-/// The length of the parts of the range of k whose ends are not both near 0 or π in θ.
-fn jump_width(table: &Table) -> Result<f64, NodeError> {
-    let (k, theta) = (table.f64s("k").map_err(unread)?, table.f64s("theta").map_err(unread)?);
-    let level = |theta: f64| match theta.abs() {
-        theta if theta < NEAR => 0,
-        theta if PI - theta < NEAR => 1,
-        _ => 2,
-    };
-    let pairs = k.windows(2).zip(theta.windows(2));
-    let outside = pairs.filter(|(_, theta)| level(theta[0]) != level(theta[1]) || level(theta[0]) == 2);
-    Ok(outside.map(|(k, _)| k[1] - k[0]).sum())
-}
-
 /// What the second route of the curve says.
 struct Check {
     /// Largest difference among the rows that allow no more than the smallest allowance.
@@ -503,6 +384,7 @@ impl Check {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::claim::Evidence;
     use crate::experiments::preview;
 
     /// Oracle: the values' origins in tests/oracle/values.toml (integration at 40 digits, algebraic limits).

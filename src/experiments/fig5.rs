@@ -9,15 +9,15 @@
 //! two momenta with one conjugate point; for `k → k̄` it goes to the start.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{Cases, unread};
+use super::findings::{Cases, claim, unread};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
 use super::spin_branches::{
-    Branch, ask_for_branch, ask_for_double_points, contact, cusp_values, double_point_values, double_points,
+    Branch, Switches, ask_for_branch, ask_for_double_points, contact, cusp_values, double_point_values, double_points,
     largest_route_difference, routes_agree, switches, validate_panels,
 };
 use crate::contract::accuracy::Accuracy;
-use crate::contract::claim::Claim;
+use crate::contract::claim::{Claim, Evidence};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::sweep::Sweep;
@@ -256,52 +256,70 @@ impl Definition for Fig5 {
         let column = |name: &str| loops.f64s(name).map_err(unread);
         let (ks, low, high, cusp) = (column("k")?, column("theta_low")?, column("theta_high")?, column("cusp_theta")?);
         let (length, count) = (column("loop_length")?, loops.ints("double_points").map_err(unread)?);
-        let switches = switches();
-        let considered = || (0..ks.len()).filter(|i| ks[*i] <= switches.k3);
-        let half_plane = considered().map(|i| {
-            let inside = low[i] >= 0.0 && high[i] <= PI;
-            (inside, format!("k = {:?}: θ from {:?} to {:?}", ks[i], low[i], high[i]))
-        });
-        let has_loop = considered().map(|i| {
-            let expected = if ks[i] < switches.k_bar { 0 } else { 1 };
-            (count[i] == expected, format!("k = {:?}: {} double points", ks[i], count[i]))
-        });
-        let ends = considered().map(|i| {
-            let expected = if ks[i] > switches.k1 && ks[i] < switches.k2 { 0.0 } else { PI };
+        let Switches { k1, k_bar, k2, k3 } = switches();
+        let considered = || (0..ks.len()).filter(|i| ks[*i] <= k3);
+        let lies = |inside: &dyn Fn(f64, f64) -> bool| {
+            let words = |i: usize| format!("k = {:?}: θ from {:?} to {:?}", ks[i], low[i], high[i]);
+            Cases::of(considered().map(|i| (inside(low[i], high[i]), words(i)))).test()
+        };
+        let loops_from = |from: f64, loops: i64| {
+            let expected = |i: usize| if ks[i] < from { 0 } else { loops };
+            let words = |i: usize| format!("k = {:?}: {} double points", ks[i], count[i]);
+            Cases::of(considered().map(|i| (count[i] == expected(i), words(i)))).test()
+        };
+        let ends = |[first, second]: [f64; 2], [outside, between]: [f64; 2]| {
+            let expected = |i: usize| if ks[i] > first && ks[i] < second { between } else { outside };
+            let words = |i: usize| format!("k = {:?}: the cusp is at θ = {:?}", ks[i], cusp[i]);
             // On the meridian θ is 0 or π exactly.
-            (cusp[i] == expected || ks[i] == switches.k2, format!("k = {:?}: the cusp is at θ = {:?}", ks[i], cusp[i]))
-        });
-        let with_loop: Vec<usize> = (0..ks.len()).filter(|i| length[*i].is_finite()).collect();
-        let shrinks = with_loop.windows(2).map(|pair| {
-            let (a, b) = (pair[0], pair[1]);
-            (length[b] < length[a], format!("k = {:?}, {:?}: lengths {:?}, {:?}", ks[a], ks[b], length[a], length[b]))
-        });
+            Cases::of(considered().map(|i| (cusp[i] == expected(i) || ks[i] == second, words(i)))).test()
+        };
+        let lengths: Vec<_> = (0..ks.len()).filter(|i| length[*i].is_finite()).map(|i| (ks[i], length[i])).collect();
+        let falls = |values: &[(f64, f64)]| {
+            Cases::of(values.windows(2).map(|pair| (pair[1].1 < pair[0].1, format!("(k, value): {pair:?}")))).test()
+        };
+        let backwards: Vec<_> = lengths.iter().rev().copied().collect();
+        let steps: Vec<_> = lengths.windows(2).map(|pair| (pair[1].0, pair[1].1 - pair[0].1)).collect();
         Ok(vec![
-            Cases::of(half_plane).claim(
+            claim(
                 "half_plane",
                 "section 5.2.1",
                 "For any k in [1, k3] the branch lies in the half-plane θ ≥ 0.",
+                Evidence::Direct(lies(&|low, high| low >= 0.0 && high <= PI)),
                 "Every sample of every branch; also θ ≤ π.",
-            ),
-            Cases::of(has_loop).claim(
+            )
+            .refusing("It lies in the half-plane θ ≤ 0.", lies(&|low, high| low >= -PI && high <= 0.0))
+            .refusing("It lies in 0 ≤ θ ≤ π/2.", lies(&|low, high| low >= 0.0 && high <= FRAC_PI_2))
+            .refusing("It nowhere reaches θ = 0.", lies(&|low, high| low > 0.0 && high <= PI)),
+            claim(
                 "loop",
                 "section 5.2.1",
                 "The branch forms a loop for k̄ ≤ k ≤ k3 (and none before).",
+                Evidence::Direct(loops_from(k_bar, 1)),
                 "At k̄ the cusp passes the start along the meridian θ = 0. From then on the strand that comes from the cusp has to cross the arc that \
                  leaves the start, which touches the meridian from the other side of the equator: a double point, one for each k examined.",
-            ),
-            Cases::of(ends).claim(
+            )
+            .refusing("from k1 on", loops_from(k1, 1))
+            .refusing("from k2 on", loops_from(k2, 1))
+            .refusing("two loops", loops_from(k_bar, 2)),
+            claim(
                 "ends_on_meridian",
                 "section 5.2.1",
                 "The branch ends at θ = π for k < k1, at θ = 0 for k1 < k < k2, at θ = π for k2 < k < k3.",
+                Evidence::Direct(ends([k1, k2], [PI, 0.0])),
                 "The limit p_θ → 0: k1 = 3/√8, k2 = 5/4, k3 = 7/√24.",
-            ),
-            Cases::of(shrinks).claim(
+            )
+            .refusing("0 and π exchanged", ends([k1, k2], [0.0, PI]))
+            .refusing("at θ = 0 for k̄ < k < k2", ends([k_bar, k2], [PI, 0.0]))
+            .refusing("at θ = 0 for k1 < k < k3", ends([k1, k3], [PI, 0.0])),
+            claim(
                 "loops_shrink",
                 "section 5.2.3",
                 "The loops become smaller and smaller for greater values of k.",
+                Evidence::Direct(falls(&lengths)),
                 "The length of the loop on the sphere, over the values of k examined.",
-            ),
+            )
+            .refusing("They become smaller for smaller values of k.", falls(&backwards))
+            .refusing("They become smaller faster and faster.", falls(&steps)),
             contact(&branches(params, tables)?),
             routes_agree(tables)?,
         ])

@@ -16,6 +16,14 @@ const PRINTED_TIME: f64 = 14.0;
 const BEGINNINGS: [(&str, &str, i64, &str); 3] =
     [("ii", POLE, 1, "k1"), ("iii", EQUATOR, 2, "k_bar"), ("iv", POLE, 2, "k2")];
 
+/// A type and the switch point at which it begins according to the article.
+struct Beginning {
+    kind: &'static str,
+    name: &'static str,
+    k: f64,
+    error: f64,
+}
+
 /// The claims of what is asked for.
 pub(super) fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
     if !params.scene.asks_for(Effect::TrajectoryTypes) {
@@ -27,11 +35,15 @@ pub(super) fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, Nod
         grid.monotone_claim(tables.get(MONOTONE).map_err(unread)?)?,
         grid.tolerance_claim(params.types.decrease_tolerance),
     ];
+    let mut beginnings = Vec::new();
     for (kind, passage, index, name) in BEGINNINGS {
-        let Some((k, error)) = switch(switches, passage, index)? else { continue };
-        claims.push(grid.range_claim(kind, name, k));
+        beginnings.extend(switch(switches, passage, index)?.map(|(k, error)| Beginning { kind, name, k, error }));
+    }
+    for beginning in &beginnings {
+        let others: Vec<&Beginning> = beginnings.iter().filter(|other| other.kind != beginning.kind).collect();
+        claims.push(grid.range_claim(beginning, &others));
         let ranges = tables.get(RANGES).map_err(unread)?;
-        claims.extend(beginning_claim(ranges, kind, name, (k, error), params.types.smallest_p_theta)?);
+        claims.extend(beginning_claim(ranges, beginning, &others, params.types.smallest_p_theta)?);
     }
     claims.push(grid.exit_claim());
     claims.push(grid.complete_claim(params.types.decrease_tolerance));
@@ -74,18 +86,19 @@ impl Grid<'_> {
     /// Type i taken literally: the one extremal of each k that can be, examined by itself.
     fn monotone_claim(&self, monotone: &Table) -> Result<Claim, NodeError> {
         let column = |name: &str| monotone.f64s(name).map_err(unread);
-        let (k, p_theta, decrease) = (column("k")?, column("p_theta")?, column("decrease")?);
+        let (k, p_theta, theta, decrease) = (column("k")?, column("p_theta")?, column("theta")?, column("decrease")?);
         let (return_difference, allowed) = (column("return_difference")?, column("allowed")?);
-        let mut cases = Cases::default();
-        for i in 0..monotone.rows() {
-            let falls = decrease[i] > ROUNDING || return_difference[i] > allowed[i];
-            cases.add(falls, || {
+        let test = |holds: &dyn Fn(usize) -> bool| {
+            let words = |i: usize| {
                 format!(
                     "k = {:?}, p_θ = {:?}: θ decreases by {:e} rad; at the first return it is off π/2 by {:e} rad",
                     k[i], p_theta[i], decrease[i], return_difference[i]
                 )
-            });
-        }
+            };
+            let found = |i: usize| return_difference[i] <= allowed[i];
+            Cases::of((0..monotone.rows()).map(|i| (found(i) && holds(i), words(i)))).test()
+        };
+        let rises = |i: usize| decrease[i] <= ROUNDING;
         let above_one = || (0..self.k.len()).filter(|i| self.k[*i] > 1.0);
         let falling = above_one().filter(|i| self.decrease[*i] > ROUNDING / self.p_theta[*i]).count();
         let ends = k.first().zip(p_theta.first()).into_iter().chain(k.last().zip(p_theta.last()));
@@ -97,7 +110,10 @@ impl Grid<'_> {
             above_one().count(),
         );
         let statement = "Type i, θ not decreasing on [0, t1], occurs for every k with 1 ≤ k ≤ k3.";
-        Ok(cases.claim("type_i", PLACE, statement, note))
+        Ok(claim("type_i", PLACE, statement, Evidence::Direct(test(&rises)), note)
+            // θ starts at 0: what it ends at is its increase less its decrease.
+            .refusing("θ not increasing", test(&|i| theta[i] + decrease[i] <= ROUNDING))
+            .refusing("for k = 1 only", test(&|i| rises(i) == (k[i] == 1.0))))
     }
 
     /// Type i as the figure shows it: with a tolerance it is more than one trajectory.
@@ -110,37 +126,53 @@ impl Grid<'_> {
         cases.claim("type_i_with_tolerance", NOT_IN_ARTICLE, statement, self.extent())
     }
 
-    fn range_claim(&self, kind: &str, name: &str, from: f64) -> Claim {
-        let differs = |k: f64| self.shows(kind, k) != (k >= from);
+    fn range_claim(&self, Beginning { kind, name, k: from, .. }: &Beginning, others: &[&Beginning]) -> Claim {
+        let test = |exists: &dyn Fn(f64) -> bool| {
+            let differs = |k: f64| self.shows(kind, k) != exists(k);
+            self.over_k(differs, |k| format!("k = {k:?}: {}", self.shows(kind, k))).test()
+        };
         let statement = format!("Type {kind} exists for {name} ≤ k ≤ k3, and not below.");
-        let cases = self.over_k(differs, |k| format!("k = {k:?}: {}", self.shows(kind, k)));
-        cases.claim(&format!("type_{kind}_range"), PLACE, statement, self.extent())
+        let evidence = Evidence::Direct(test(&|k| k >= *from));
+        let mut claim = claim(&format!("type_{kind}_range"), PLACE, statement, evidence, self.extent());
+        for other in others {
+            claim = claim.refusing(format!("from {} on", other.name), test(&|k| k >= other.k));
+        }
+        claim.refusing(format!("up to {name}, and not above"), test(&|k| k <= *from))
     }
 
     fn exit_claim(&self) -> Claim {
-        let mut cases = Cases::default();
-        for i in (0..self.k.len()).filter(|i| self.t_exit[*i].is_finite()) {
-            let (k, p_theta, t_exit, t1) = (self.k[i], self.p_theta[i], self.t_exit[i], self.t1[i]);
-            cases.add(t_exit <= t1, || format!("k = {k:?}, p_θ = {p_theta:?}: t̄ = {t_exit:?}, t1 = {t1:?}"));
-        }
-        cases.claim(
+        let test = |types: &[&str], holds: &dyn Fn(f64, f64) -> bool| {
+            let examined = (0..self.k.len()).filter(|i| types.contains(&self.types[*i].as_str()));
+            let words = |i: usize| {
+                let (k, p_theta, t_exit, t1) = (self.k[i], self.p_theta[i], self.t_exit[i], self.t1[i]);
+                format!("k = {k:?}, p_θ = {p_theta:?}: t̄ = {t_exit:?}, t1 = {t1:?}")
+            };
+            Cases::of(examined.map(|i| (holds(self.t_exit[i], self.t1[i]), words(i)))).test()
+        };
+        let (types, after) = (["ii", "iii", "iv"], |t_exit: f64, t1: f64| t_exit > t1);
+        claim(
             "exit_after_conjugate",
             PLACE,
             "The first exit from 0 ≤ θ ≤ π lies after the first conjugate time (types ii to iv).",
+            Evidence::Direct(test(&types, &after)),
             "Implied by the definition of the types. For p_θ → 0 the two times meet like p_θ².",
         )
+        .refusing("It lies before the first conjugate time.", test(&types, &|t_exit, t1| t_exit < t1))
+        .refusing(
+            "It lies at the first conjugate time.",
+            test(&types, &|t_exit, t1| (t_exit - t1).abs() <= ROUNDING * t1),
+        )
+        .refusing("It lies after twice the first conjugate time.", test(&types, &|t_exit, t1| t_exit > 2.0 * t1))
     }
 
     fn complete_claim(&self, tolerance: f64) -> Claim {
-        let mut cases = Cases::default();
-        for i in 0..self.k.len() {
-            let (k, p_theta, decrease) = (self.k[i], self.p_theta[i], self.decrease[i]);
-            cases.add(self.types[i] == "none", || {
-                format!(
-                    "k = {k:?}, p_θ = {p_theta:?}: θ decreases by {decrease:e} rad, leaves at π, no self-intersection"
-                )
-            });
-        }
+        let one_of = |types: &[&str]| {
+            let words = |i: usize| {
+                let (k, p_theta, decrease) = (self.k[i], self.p_theta[i], self.decrease[i]);
+                format!("k = {k:?}, p_θ = {p_theta:?}: {}, θ decreases by {decrease:e} rad", self.types[i])
+            };
+            Cases::of((0..self.k.len()).map(|i| (types.contains(&self.types[i].as_str()), words(i)))).test()
+        };
         let note = format!(
             "With a tolerance of {tolerance:?} rad for monotony. Between types ii and i the exit changes from 0 to π through the pole, where \
              θ has decreased by some 0.025 rad: with a smaller tolerance a thin fifth type, leaving at π without self-intersection, \
@@ -148,7 +180,10 @@ impl Grid<'_> {
             self.extent()
         );
         let statement = "Every trajectory with 1 ≤ k ≤ k3, p_θ > 0 is of one of the four types.";
-        cases.claim("four_types", PLACE, statement, note)
+        claim("four_types", PLACE, statement, Evidence::Direct(one_of(&["i", "ii", "iii", "iv"])), note)
+            .refusing("one of the types i, iii and iv", one_of(&["i", "iii", "iv"]))
+            .refusing("one of the types i, ii and iii", one_of(&["i", "ii", "iii"]))
+            .refusing("one of the types ii, iii and iv", one_of(&["ii", "iii", "iv"]))
     }
 }
 
@@ -161,9 +196,8 @@ fn switch(table: &Table, passage: &str, index: i64) -> Result<Option<(f64, f64)>
 
 fn beginning_claim(
     table: &Table,
-    kind: &str,
-    name: &str,
-    switch: (f64, f64),
+    Beginning { kind, name, k: at, error: at_error }: &Beginning,
+    others: &[&Beginning],
     smallest: f64,
 ) -> Result<Option<Claim>, NodeError> {
     let kinds = table.texts("type").map_err(unread)?;
@@ -172,21 +206,25 @@ fn beginning_claim(
     if table.bools("from_is_end_of_grid").map_err(unread)?[row] {
         return Ok(None);
     }
-    let test = Test::Equal {
-        printed: switch.0,
+    let test = |at: f64, at_error: f64| Test::Equal {
+        printed: at,
         ours: k,
-        tolerance: error + switch.1 + smallest * smallest,
+        tolerance: error + at_error + smallest * smallest,
         reason: format!(
             "p_θ² for p_θ = {smallest:?}, by which t̄, the exit that decides, lies later than t1; and the error of the end found"
         ),
     };
-    Ok(Some(claim(
+    let mut claim = claim(
         &format!("type_{kind}_begins"),
         PLACE,
         format!("Type {kind} begins at {name}."),
-        Evidence::Direct(test),
+        Evidence::Direct(test(*at, *at_error)),
         format!("{name} is computed here for the smallest p_θ of the grid, as the root in k of the closed form."),
-    )))
+    );
+    for other in others {
+        claim = claim.refusing(format!("It begins at {}.", other.name), test(other.k, other.error));
+    }
+    Ok(Some(claim))
 }
 
 fn example_claim(params: &Params, table: &Table) -> Result<Option<Claim>, NodeError> {
@@ -195,17 +233,29 @@ fn example_claim(params: &Params, table: &Table) -> Result<Option<Claim>, NodeEr
     if t_end < PRINTED_TIME {
         return Ok(None);
     }
-    let visible = first_fall(table, tolerance)?.filter(|(t, _)| *t < PRINTED_TIME);
-    let note = match (first_fall(table, A_FALL)?, visible) {
+    let visible = first_fall(table, tolerance)?;
+    let falls_before = |time: f64| visible.is_some_and(|(t, _)| t < time);
+    let note = match (first_fall(table, A_FALL)?, visible.filter(|(t, _)| *t < PRINTED_TIME)) {
         (Some((first, little)), Some((t, fall))) => format!(
             "θ begins to fall by {fall:.4} rad at t = {t:.6}. Literally it is not monotone from t = {first:.6} on, \
              where it falls by {little:.1e} rad."
         ),
         _ => String::new(),
     };
-    let words = format!("no fall by more than {tolerance:?} rad begins before");
+    let test = |holds: bool, time: f64| {
+        let words = match visible {
+            Some((t, fall)) => format!("the first fall by more than {tolerance:?} rad, {fall:?}, begins at {t:?}"),
+            None => format!("no fall by more than {tolerance:?} rad"),
+        };
+        Cases::of([(holds, format!("up to {time:?}: {words}"))]).test()
+    };
     let statement = format!("For k = {k:?}, p_θ = {p_theta:?} θ is not monotone on [0, t_f], t_f > 14.");
-    Ok(Some(Cases::of([(visible.is_some(), words)]).claim("not_monotone", "section 5.2", statement, note)))
+    let evidence = Evidence::Direct(test(falls_before(PRINTED_TIME), PRINTED_TIME));
+    Ok(Some(
+        claim("not_monotone", "section 5.2", statement, evidence, note)
+            .refusing("t_f > 12", test(falls_before(12.0), 12.0))
+            .refusing("θ is monotone on [0, 14].", test(!falls_before(PRINTED_TIME), PRINTED_TIME)),
+    ))
 }
 
 fn routes_agree(table: &Table) -> Result<Claim, NodeError> {
