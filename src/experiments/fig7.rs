@@ -8,7 +8,7 @@
 //! stretches it: between p_θ = 0.0008 and 0.001 for k = 0.1 it turns through 3 radians of θ.
 
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{Cases, unread};
+use super::findings::{Cases, claim, unread};
 use super::nodes::Nodes;
 use super::scenes::curves::curves;
 use super::scenes::more::Asked;
@@ -17,7 +17,7 @@ use super::spin_branches::{
     routes_agree, turned,
 };
 use crate::contract::accuracy::Accuracy;
-use crate::contract::claim::Claim;
+use crate::contract::claim::{Claim, Evidence};
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
@@ -113,9 +113,64 @@ const GEODESICS: &str = "geodesics";
 
 struct Fig7;
 
-/// How far θ falls in all along a curve.
-fn decrease(curve: &[(f64, f64)]) -> f64 {
-    curve.windows(2).map(|pair| (pair[0].0 - pair[1].0).max(0.0)).sum()
+/// A change of θ along an extremal that counts as one: far above the error of its points.
+const SEEN: f64 = 1e-6;
+
+/// How far θ moves along a curve in the direction of `sign`, in all.
+fn moved(curve: &[(f64, f64)], sign: f64) -> f64 {
+    curve.windows(2).map(|pair| (sign * (pair[1].0 - pair[0].0)).max(0.0)).sum()
+}
+
+/// The claim that θ is not monotone along some extremal of each k.
+fn not_monotone(ks: &[f64], tables: &Tables) -> Result<Claim, NodeError> {
+    let mut all: Vec<(f64, Vec<[f64; 2]>)> = Vec::new();
+    for k in ks {
+        let table = tables.get(&name_of(GEODESICS, *k)).map_err(unread)?;
+        let moves = curves(table, "index")?.iter().map(|curve| [-1.0, 1.0].map(|sign| moved(curve, sign))).collect();
+        all.push((*k, moves));
+    }
+    // Decrease and increase along each extremal of one k.
+    let test = |holds: fn(&[[f64; 2]]) -> bool| {
+        let case = |(k, moves): &(f64, Vec<[f64; 2]>)| {
+            let falls = moves.iter().map(|[fall, _]| *fall).fold(0.0, f64::max);
+            (holds(moves), format!("k = {k:?}: the largest decrease is {falls:e}"))
+        };
+        Cases::of(all.iter().map(case)).test()
+    };
+    Ok(claim(
+        "theta_not_monotone",
+        "section 5.2.2",
+        "For k < 1 the variable θ is not monotone (along some extremal, up to t1).",
+        Evidence::Direct(test(|moves| moves.iter().any(|[fall, growth]| *fall > SEEN && *growth > SEEN))),
+        "",
+    )
+    .refusing("θ never falls", test(|moves| moves.iter().all(|[fall, _]| *fall <= SEEN)))
+    .refusing("θ never grows", test(|moves| moves.iter().all(|[_, growth]| *growth <= SEEN)))
+    .refusing("θ falls somewhere along every extremal", test(|moves| moves.iter().all(|[fall, _]| *fall > SEEN))))
+}
+
+/// The claim about where the cusp of each k is.
+fn cusp_claim(branches: &[Branch<'_>]) -> Claim {
+    // t1 between two multiples of π, and whether the cusp is beyond the equator then.
+    let test = |low: f64, high: f64, beyond: bool| {
+        let case = |branch: &Branch<'_>| {
+            let (k, t1, phi) = (branch.k, branch.t1[0], branch.phi[0]);
+            let inside = t1 > low * PI && t1 < high * PI && (phi > FRAC_PI_2) == beyond;
+            (inside, format!("k = {k:?}: t1 = {t1:?}, φ = {phi:?}"))
+        };
+        Cases::of(branches.iter().map(case)).test()
+    };
+    claim(
+        "cusp_stays_beyond_equator",
+        "section 5.2.3",
+        "For k < 1 the cusp does not cross the equator.",
+        Evidence::Direct(test(1.0, 1.5, true)),
+        "For p_θ = 0 and k < 1, t1 solves l tan t = tanh(l t), l² = 1/k² − 1, which has its first root in (π, 3π/2) for every l: \
+         between the equator, reached as k → 0, and the round case.",
+    )
+    .refusing("it does: φ < π/2, with t1 in (π, 3π/2)", test(1.0, 1.5, false))
+    .refusing("it stays beyond, with t1 in (π/2, π)", test(0.5, 1.0, true))
+    .refusing("it stays beyond, with t1 in (3π/2, 2π)", test(1.5, 2.0, true))
 }
 
 fn branches<'a>(params: &Params, tables: &'a Tables) -> Result<Vec<Branch<'a>>, NodeError> {
@@ -248,32 +303,11 @@ impl Definition for Fig7 {
     fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
         let mut claims = Vec::new();
         if params.scene.asks_for(Effect::Geodesics) {
-            let mut cases = Vec::new();
-            for k in params.scene.metric.spin.k.values() {
-                let table = tables.get(&name_of(GEODESICS, k)).map_err(unread)?;
-                let falls = curves(table, "index")?.iter().map(|curve| decrease(curve)).fold(0.0, f64::max);
-                cases.push((falls > 1e-6, format!("k = {k:?}: the largest decrease is {falls:e}")));
-            }
-            claims.push(Cases::of(cases).claim(
-                "theta_not_monotone",
-                "section 5.2.2",
-                "For k < 1 the variable θ is not monotone (along some extremal, up to t1).",
-                "",
-            ));
+            claims.push(not_monotone(&params.scene.metric.spin.k.values(), tables)?);
         }
         let branches = branches(params, tables)?;
         if !branches.is_empty() {
-            let cases = branches.iter().map(|branch| {
-                let beyond = branch.t1[0] > PI && branch.t1[0] < 1.5 * PI && branch.phi[0] > FRAC_PI_2;
-                (beyond, format!("k = {:?}: t1 = {:?}, φ = {:?}", branch.k, branch.t1[0], branch.phi[0]))
-            });
-            claims.push(Cases::of(cases).claim(
-                "cusp_stays_beyond_equator",
-                "section 5.2.3",
-                "For k < 1 the cusp does not cross the equator.",
-                "For p_θ = 0 and k < 1, t1 solves l tan t = tanh(l t), l² = 1/k² − 1, which has its first root in (π, 3π/2) for every l: \
-                 between the equator, reached as k → 0, and the round case.",
-            ));
+            claims.push(cusp_claim(&branches));
             claims.push(contact(&branches));
             claims.push(routes_agree(tables)?);
         }

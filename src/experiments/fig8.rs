@@ -141,29 +141,101 @@ fn sphere(tables: &Tables, shown: &Sphere) -> Result<Panel, NodeError> {
         .mark(SpherePoints::new(Role::Pole, vec![[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]]).labels(["N", "S"])))
 }
 
+/// Whether a cusp is on the half of its meridian that is opposite to the start.
+fn is_far(branch: &Branch<'_>) -> bool {
+    branch.theta[0] == PI
+}
+
+/// Whether a cusp is on the other side of the equator than the pole φ = 0.
+fn is_beyond(branch: &Branch<'_>) -> bool {
+    branch.phi[0] > FRAC_PI_2
+}
+
+/// The test of where the cusps of some loci are.
+fn places<'a>(branches: impl Iterator<Item = &'a Branch<'a>>, holds: impl Fn(&Branch<'_>) -> bool) -> Test {
+    let place = |branch: &Branch<'_>| {
+        format!("k = {:?}: the cusp is at θ = {:?}, φ = {:?}", branch.k, branch.theta[0], branch.phi[0])
+    };
+    Cases::of(branches.map(|branch| (holds(branch), place(branch)))).test()
+}
+
+/// The claim about the cusps of k < 1, if the scene has one.
+fn below_claim(branches: &[Branch<'_>]) -> Option<Claim> {
+    let below = || branches.iter().filter(|branch| branch.k < 1.0);
+    below().next()?;
+    let test = |far: bool, beyond: bool| places(below(), |branch| is_far(branch) == far && is_beyond(branch) == beyond);
+    let claimed = claim(
+        "cusp_stays_beyond_equator",
+        "section 5.2.3",
+        "For k < 1 the cusp does not cross the equator.",
+        Evidence::Direct(test(true, true)),
+        "",
+    );
+    Some(
+        claimed
+            .refusing("it crosses the equator: φ < π/2 at θ = π", test(true, false))
+            .refusing("it does not, and is on the half of the start: φ > π/2 at θ = 0", test(false, true)),
+    )
+}
+
+/// The claim about the order of the cusp's crossings for k from 1 to k2, if the scene has one.
+fn order_claim(branches: &[Branch<'_>]) -> Option<Claim> {
+    let switches = switches();
+    let above = || branches.iter().filter(|branch| branch.k >= 1.0 && branch.k < switches.k2);
+    above().next()?;
+    let test = |pole: f64, equator: f64| {
+        places(above(), |branch| is_far(branch) == (branch.k < pole) && is_beyond(branch) == (branch.k < equator))
+    };
+    let claimed = claim(
+        "pole_then_equator",
+        "section 5.2.3",
+        "For k > 1 the cusp first crosses a pole (k = k1), then the equator (k = k̄).",
+        Evidence::Direct(test(switches.k1, switches.k_bar)),
+        "It moves along the meridian of the start: θ = π before k1, θ = 0 after it; φ > π/2 before k̄, φ < π/2 after it. The crossing of the \
+         equator is at the start itself. k1 = 3/√8 and k̄ = 2/√3 in the limit p_θ → 0.",
+    );
+    Some(
+        claimed
+            .refusing("first the equator (k = k1), then a pole (k = k̄)", test(switches.k_bar, switches.k1))
+            .refusing("a pole at k = k1, the equator at k = k2", test(switches.k1, switches.k2))
+            .refusing("a pole at k = k̄, the equator at k = k2", test(switches.k_bar, switches.k2))
+            .refusing("a pole at k = 1, the equator at k = k̄", test(1.0, switches.k_bar)),
+    )
+}
+
 /// The claim about which pole the cusp crosses at k1, if the scene has a k on either side of it.
 fn pole_claim(branches: &[Branch<'_>]) -> Claim {
     let switches = switches();
+    let within = |low: f64, high: f64| branches.iter().find(|branch| branch.k > low && branch.k < high);
     let before = branches.iter().find(|branch| branch.k >= 1.0 && branch.k < switches.k1);
-    let after = branches.iter().find(|branch| branch.k > switches.k1 && branch.k < switches.k_bar);
+    let after = within(switches.k1, switches.k_bar);
+    // What lies on the meridian between two cusps, as φ: a pole if they are on opposite halves, else the equator.
+    let between = |before: &Branch<'_>, after: &Branch<'_>| {
+        if is_far(before) == is_far(after) {
+            FRAC_PI_2
+        } else if is_beyond(before) && is_beyond(after) {
+            PI
+        } else {
+            0.0
+        }
+    };
+    let test = |north: f64, passed: f64| Test::Equal {
+        printed: north,
+        ours: passed,
+        tolerance: 0.0,
+        reason: "φ of what lies between the cusps of a k below the crossing and of one above it".to_owned(),
+    };
     let evidence = if let (Some(before), Some(after)) = (before, after) {
-        // Beyond the equator before and after, on opposite halves of the meridian: it passed the pole in between.
-        let passed = if before.phi[0] > FRAC_PI_2 && after.phi[0] > FRAC_PI_2 { PI } else { 0.0 };
-        let test = |north: f64| Test::Equal {
-            printed: north,
-            ours: passed,
-            tolerance: 0.0,
-            reason: "φ of the pole between the cusps of a k below k1 and of one above it".to_owned(),
-        };
+        let passed = between(before, after);
         Evidence::OnlyWhen {
             condition: "the North pole is φ = π, not φ = 0".to_owned(),
-            inside: test(PI),
-            outside: test(0.0),
+            inside: test(PI, passed),
+            outside: test(0.0, passed),
         }
     } else {
         Evidence::NotChecked { reason: "the scene has no k in [1, k1), or none in (k1, k̄)".to_owned() }
     };
-    claim(
+    let mut claimed = claim(
         "first_pole",
         "section 5.2.3",
         "For k > 1 the cusp first crosses the North pole (k = k1).",
@@ -171,7 +243,47 @@ fn pole_claim(branches: &[Branch<'_>]) -> Claim {
         "The text does not say which pole is North; φ is measured from the pole φ = 0, which is N in the figure. With p_φ(0) = −2 \
                the extremals go first over φ = 0; the cusp is reached on the way back, after t1 = 3π/2 on the meridian, at the pole φ = \
                π. It is φ = 0 for the other half, p_φ(0) = 2.",
-    )
+    );
+    if let (Some(before), Some(after)) = (before, after) {
+        let passed = between(before, after);
+        claimed = claimed
+            .refusing("the cusp of the other half, p_φ(0) = 2, crosses φ = π", test(PI, PI - passed))
+            .refusing("the cusp first crosses the equator (k = k1)", test(FRAC_PI_2, passed));
+        if let Some(later) = within(switches.k_bar, switches.k2) {
+            claimed = claimed.refusing("the cusp crosses φ = π at k = k̄", test(PI, between(after, later)));
+        }
+    }
+    claimed
+}
+
+/// The claim about from which k on the locus has double points, if the scene has a k up to k3.
+fn loops_claim(branches: &[Branch<'_>], tables: &Tables) -> Result<Option<Claim>, NodeError> {
+    let switches = switches();
+    let mut counts = Vec::new();
+    for branch in branches.iter().filter(|branch| branch.k <= switches.k3) {
+        counts.push((branch.k, double_points(tables, branch.k)?.len()));
+    }
+    if counts.is_empty() {
+        return Ok(None);
+    }
+    // So many double points or more above a value of k, fewer below.
+    let test = |least: usize, from: f64| {
+        let words = |k: f64, count: usize| format!("k = {k:?}: {count} double points");
+        Cases::of(counts.iter().map(|(k, count)| ((*count >= least) == (*k > from), words(*k, *count)))).test()
+    };
+    let claimed = claim(
+        "self_intersections",
+        "section 5.2.3",
+        "For k ≥ k̄ the conjugate locus has self-intersections (and not before).",
+        Evidence::Direct(test(1, switches.k_bar)),
+        "Of one branch, p_θ ≥ 0, with itself; those of p_θ ≤ 0 are their mirror images. Fig. 5 examines more values of k.",
+    );
+    Ok(Some(
+        claimed
+            .refusing("from k1 on", test(1, switches.k1))
+            .refusing("from k2 on", test(1, switches.k2))
+            .refusing("from k̄ on, two of one branch", test(2, switches.k_bar)),
+    ))
 }
 
 impl Definition for Fig8 {
@@ -243,55 +355,9 @@ impl Definition for Fig8 {
 
     fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
         let branches = branches(params, tables)?;
-        let switches = switches();
-        let place = |branch: &Branch<'_>| {
-            format!("k = {:?}: the cusp is at θ = {:?}, φ = {:?}", branch.k, branch.theta[0], branch.phi[0])
-        };
-        let below = branches.iter().filter(|branch| branch.k < 1.0).map(|branch| {
-            let beyond = branch.theta[0] == PI && branch.phi[0] > FRAC_PI_2;
-            (beyond, place(branch))
-        });
-        let above = branches.iter().filter(|branch| branch.k >= 1.0 && branch.k < switches.k2).map(|branch| {
-            let far_half = branch.k < switches.k1;
-            let beyond = branch.k < switches.k_bar;
-            let as_said = (branch.theta[0] == PI) == far_half && (branch.phi[0] > FRAC_PI_2) == beyond;
-            (as_said, place(branch))
-        });
-        let mut loops = Vec::new();
-        for branch in branches.iter().filter(|branch| branch.k <= switches.k3) {
-            let count = double_points(tables, branch.k)?.len();
-            loops.push((
-                (count > 0) == (branch.k > switches.k_bar),
-                format!("k = {:?}: {count} double points", branch.k),
-            ));
-        }
-        let mut claims = Vec::new();
-        if branches.iter().any(|branch| branch.k < 1.0) {
-            claims.push(Cases::of(below).claim(
-                "cusp_stays_beyond_equator",
-                "section 5.2.3",
-                "For k < 1 the cusp does not cross the equator.",
-                "",
-            ));
-        }
-        if branches.iter().any(|branch| branch.k >= 1.0 && branch.k < switches.k2) {
-            claims.push(Cases::of(above).claim(
-                "pole_then_equator",
-                "section 5.2.3",
-                "For k > 1 the cusp first crosses a pole (k = k1), then the equator (k = k̄).",
-                "It moves along the meridian of the start: θ = π before k1, θ = 0 after it; φ > π/2 before k̄, φ < π/2 after it. The crossing of the \
-                 equator is at the start itself. k1 = 3/√8 and k̄ = 2/√3 in the limit p_θ → 0.",
-            ));
-        }
+        let mut claims: Vec<Claim> = [below_claim(&branches), order_claim(&branches)].into_iter().flatten().collect();
         claims.push(pole_claim(&branches));
-        if !loops.is_empty() {
-            claims.push(Cases::of(loops).claim(
-                "self_intersections",
-                "section 5.2.3",
-                "For k ≥ k̄ the conjugate locus has self-intersections (and not before).",
-                "Of one branch, p_θ ≥ 0, with itself; those of p_θ ≤ 0 are their mirror images. Fig. 5 examines more values of k.",
-            ));
-        }
+        claims.extend(loops_claim(&branches, tables)?);
         claims.push(contact(&branches));
         claims.push(routes_agree(tables)?);
         Ok(claims)

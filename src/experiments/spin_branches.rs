@@ -405,29 +405,36 @@ pub fn routes_agree(tables: &Tables) -> Result<Claim, NodeError> {
     ))
 }
 
-/// The claim of a contact of order two at the start: `θ ~ x0/(2k) (φ − π/2)²` with `tan x0 = x0`.
-pub fn contact(branches: &[Branch<'_>]) -> Claim {
+/// The test that `θ ~ coefficient (φ − π/2)^order` at the start, the coefficient a function of k.
+fn contact_test(branches: &[Branch<'_>], order: usize, coefficient: impl Fn(f64) -> f64) -> Test {
     let (mut measured, mut tolerance): (f64, f64) = (0.0, 0.0);
     for branch in branches {
         let last = branch.p_theta.len() - 1;
         let height = branch.phi[last] - FRAC_PI_2;
-        let ratio = branch.theta[last] / (height * height) / contact_coefficient(branch.k);
+        let power: f64 = std::iter::repeat_n(height, order).product();
+        let ratio = branch.theta[last] / power / coefficient(branch.k);
         measured = measured.max((ratio - 1.0).abs());
         tolerance = tolerance.max(100.0 / (branch.p_theta[last] * branch.p_theta[last]));
     }
+    let reason = "largest relative difference of θ from the leading term at the largest p_θ of each k; the next term is of order 1/p_θ²";
+    Test::AtMost { measured, tolerance, reason: reason.to_owned() }
+}
+
+/// The claim of a contact of order two at the start: `θ ~ x0/(2k) (φ − π/2)²` with `tan x0 = x0`.
+pub fn contact(branches: &[Branch<'_>]) -> Claim {
+    let test = |order: usize, coefficient: fn(f64) -> f64| contact_test(branches, order, coefficient);
     claim(
         "contact_of_order_two",
         "section 5.2",
         "For p_θ(0) → ∞ the conjugate locus has a contact of order two at the initial point.",
-        Evidence::Direct(Test::AtMost {
-            measured,
-            tolerance,
-            reason: "largest |2k θ/(x0 (φ − π/2)²) − 1| at the largest p_θ of each k, tan x0 = x0; the next term is of order 1/p_θ²"
-                .to_owned(),
-        }),
+        Evidence::Direct(test(2, contact_coefficient)),
         "The model at the start is the Grushin plane, whose conjugate points are x = −(2k/p_θ) sin x0, θ = 2k (x0 − sin x0 cos \
                x0)/p_θ², so θ/x² = x0/(2k): a parabola tangent to the meridian, one for each sign of p_θ.",
     )
+    .refusing("a contact of order one, with the same coefficient", test(1, contact_coefficient))
+    .refusing("a contact of order three, with the same coefficient", test(3, contact_coefficient))
+    .refusing("θ/(φ − π/2)² → x0/k", test(2, |k| 2.0 * contact_coefficient(k)))
+    .refusing("θ/(φ − π/2)² → π/(2k): x0 = π, where sin x0 = 0", test(2, |k| PI / (2.0 * k)))
 }
 
 /// Checks that the three figures share.

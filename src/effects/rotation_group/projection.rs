@@ -52,11 +52,11 @@ fn apart(a: f64, b: f64) -> f64 {
     2.0 * PI * (turns - libm::round(turns)).abs()
 }
 
-/// How far l is from what the printed formula gives with the principal value of its arctangent.
-fn off_by_principal_value(point: &EulerPoint<f64>, l: f64) -> f64 {
+/// How far l of the closed form is from `Φ3 − arctan`, the arctangent a function of K, L, cos Φ2 and p2 sin Φ2.
+fn off(point: &EulerPoint<f64>, l: f64, arctangent: impl Fn(f64, f64, f64, f64) -> f64) -> f64 {
     let (sine, cosine) = libm::sincos(point.angles[1]);
     let [p1, p2, p3] = point.momenta;
-    apart(l, point.angles[2] - libm::atan((p1 - p3 * cosine) / (p2 * sine)))
+    apart(l, point.angles[2] - arctangent(p1, p3, cosine, p2 * sine))
 }
 
 /// The largest difference of a point and its image under the transformation and its inverse.
@@ -89,7 +89,7 @@ impl Compute for Projection {
         let extremal = Extremal::new(&self.body.reduced()?, Start::Momenta { y0, p_x, p_y });
         let path = extremal.map_err(failed("reduced extremal"))?.path();
         let shift = into_half_turn(y0) - y0;
-        let mut columns: [Vec<f64>; 8] = Default::default();
+        let mut columns: [Vec<f64>; 11] = Default::default();
         for (i, &time) in t.iter().enumerate() {
             let (point, variables) = at(i)?;
             let [x, y, big_g, p_y] = variables.reduced();
@@ -102,11 +102,15 @@ impl Compute for Projection {
                 (reduced.p_y - p_y).abs().max((big_g - p_x).abs()),
                 apart(variables.k, start.k).max((variables.momentum_k - start.momentum_k).abs()),
                 round_trip(&point, &variables)?,
-                off_by_principal_value(&point, y),
+                off(&point, reduced.y, |k, l, cosine, below| libm::atan2(k - l * cosine, below)),
+                off(&point, reduced.y, |k, l, cosine, below| libm::atan((k - l * cosine) / below)),
+                off(&point, reduced.y, |k, l, cosine, below| libm::atan2(l - k * cosine, below)),
+                off(&point, reduced.y, |k, l, cosine, below| libm::atan2(l * cosine - k, below)),
             ];
             columns.iter_mut().zip(row).for_each(|(column, value)| column.push(value));
         }
-        let [x, y, p_y, angle_difference, momentum_difference, constants_difference, round_trip, principal] = columns;
+        let [x, y, p_y, angle_difference, momentum_difference, constants_difference, round_trip, forms @ ..] = columns;
+        let [quadrant, principal, exchanged, opposite] = forms;
         let rows = t.len() as u64;
         let table = Table::builder("projection", "an extremal on SO(3) in Serret-Andoyer variables")
             .column("t", "time", "time", t)
@@ -144,6 +148,9 @@ impl Compute for Projection {
                 "difference of l to the printed arctangent's principal value",
                 principal,
             )
+            .column("quadrant_difference", "rad", "difference of l to that arctangent in its quadrant", quadrant)
+            .column("exchanged_difference", "rad", "difference of l to the same with K and L exchanged", exchanged)
+            .column("opposite_difference", "rad", "difference of l to the same with L cos Φ2 − K above", opposite)
             .build()
             .map_err(failed("projection"))?;
         product(&table, Work { elliptic_calls: ELLIPTIC_CALLS * rows, dense_points: rows, ..Work::default() })

@@ -1,22 +1,25 @@
 //! Values and claims of Fig. 9: conjugate times against the printed ones, the projection, and the agreement of the routes.
 
 use super::{
-    ARTICLE_CURVE, LEVEL, NEEDED_START, POINT, POINT_CHECK, PROJECTION, Params, PrintedCase, Reduced, TIMES,
-    TIMES_CHECK, given, is_article_body, of_case, printed, read,
+    ARTICLE_CASES, ARTICLE_CURVE, LEVEL, NEEDED_START, POINT, POINT_CHECK, PROJECTION, Params, PrintedCase, Reduced,
+    TIMES, TIMES_CHECK, given, is_article_body, of_case, printed, read,
 };
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::node::NodeError;
 use crate::contract::value::NamedValue;
 use crate::effects::rotation_group::start::tolerance;
-use crate::effects::scene::Effect;
+use crate::effects::scene::{Effect, Inertia};
 use crate::experiments::findings::{claim, largest, unread, value};
 use crate::table::{Table, Tables};
+use std::f64::consts::FRAC_PI_2;
 
 const PLACE: &str = "section 5.3";
 const CAPTION: &str = "caption of Figure 9";
 const BEYOND: &str = "beyond the article";
 const DERIVED: &str = "derived from the caption of Figure 9";
 const ARTICLE_T1: f64 = 5.4177;
+/// The same with two digits swapped.
+const ARTICLE_T1_SWAPPED: f64 = 5.4717;
 
 fn is_article_curve(params: &Params) -> bool {
     let Reduced { cosine_squared, p_x, p_y, h, .. } = params.projection;
@@ -188,8 +191,12 @@ fn time_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) -> Res
         let (number, (printed, half)) = (i + 1, known.tau);
         let ours = read(tables, &of_case(TIMES, i), "t1")?;
         let change = read(tables, &of_case(NEEDED_START, i), "change")?;
-        let test =
-            Test::Equal { printed, ours, tolerance: half, reason: "half a unit of the last printed digit".into() };
+        let test = |printed: f64, ours: f64| Test::Equal {
+            printed,
+            ours,
+            tolerance: half,
+            reason: "half a unit of the last printed digit".into(),
+        };
         let note = format!(
             "Off by {:.1e}; two routes that share no equation agree on ours to rounding. Φ2 larger by {change:.1e} would give it; a change of \
              the time's scale would have to be one of {:.1e}, and √h is 1 + 3e-6 at most.",
@@ -197,7 +204,15 @@ fn time_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) -> Res
             (printed / ours - 1.0).abs(),
         );
         let statement = format!("The first conjugate time of case {number} is τ = {printed}.");
-        claims.push(claim(&format!("tau_case_{number}"), CAPTION, statement, Evidence::Direct(test), note));
+        let (unit, second) = (2.0 * half, read(tables, &of_case(TIMES, i), "t2")?);
+        let mut claimed =
+            claim(&format!("tau_case_{number}"), CAPTION, statement, Evidence::Direct(test(printed, ours)), note)
+                .refusing("τ one unit of its last digit larger", test(printed + unit, ours))
+                .refusing("τ is the second conjugate time", test(printed, second));
+        for other in ARTICLE_CASES.iter().filter(|other| other.phi != known.phi) {
+            claimed = claimed.refusing("the times of the two cases exchanged", test(other.tau.0, ours));
+        }
+        claims.push(claimed);
         claims.push(rounding_claim(number, known, change));
     }
     equal_times_claims(params, tables, claims)
@@ -206,27 +221,32 @@ fn time_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) -> Res
 /// Whether the rounding of the printed start is a reason for the printed τ: the change of Φ2 that would give it, against half a unit of
 /// the last digit printed.
 fn rounding_claim(number: usize, known: &PrintedCase, change: f64) -> Claim {
-    let reason = |what: &str| format!("{what}; the digits of Φ3 and p3 move τ by 3e-6 at most");
-    if known.rounding_explains {
-        let test = Test::AtMost {
-            measured: change.abs(),
-            tolerance: known.phi2,
-            reason: reason("the change of Φ2 needed, against half a unit of its last printed digit"),
+    let test = |explains: bool, half: f64| {
+        let (measured, tolerance, what) = if explains {
+            (change.abs(), half, "the change of Φ2 needed, against half a unit of its last printed digit")
+        } else {
+            (half, change.abs(), "half a unit of the last printed digit of Φ2, against the change needed")
         };
+        let reason = format!("{what}; the digits of Φ3 and p3 move τ by 3e-6 at most");
+        Test::AtMost { measured, tolerance, reason }
+    };
+    let half = known.phi2;
+    if known.rounding_explains {
         let statement =
             format!("The printed τ of case {number} belongs to a start that is printed with the same digits of Φ2.");
         let note = "So the rounding of Φ2 could explain this τ; but the projected curve, p1 and h = 1 as printed give a Φ2 with our τ.";
-        claim(&format!("tau_case_{number}_by_rounding"), BEYOND, statement, Evidence::Direct(test), note)
+        let evidence = Evidence::Direct(test(true, half));
+        claim(&format!("tau_case_{number}_by_rounding"), BEYOND, statement, evidence, note)
+            .refusing("no start with the same digits of Φ2 has it", test(false, half))
+            .refusing("one with these digits of Φ2 and a zero more has it", test(true, half / 10.0))
     } else {
-        let test = Test::AtMost {
-            measured: known.phi2,
-            tolerance: change.abs(),
-            reason: reason("half a unit of the last printed digit of Φ2, against the change needed"),
-        };
         let statement =
             format!("No start that is printed with the same digits of Φ2 as case {number} has the τ printed for it.");
         let note = "So rounding of the start does not explain this τ; it is unexplained.";
-        claim(&format!("tau_case_{number}_not_by_rounding"), BEYOND, statement, Evidence::Direct(test), note)
+        let evidence = Evidence::Direct(test(false, half));
+        claim(&format!("tau_case_{number}_not_by_rounding"), BEYOND, statement, evidence, note)
+            .refusing("a start with the same digits of Φ2 has it", test(true, half))
+            .refusing("nor has one with a digit of Φ2 less", test(false, 10.0 * half))
     }
 }
 
@@ -237,30 +257,43 @@ fn equal_times_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>)
         cases.iter().enumerate().filter_map(|(i, case)| Some((i, printed(params, case)?))).collect();
     let [(i, first), (j, second)] = known[..] else { return Ok(()) };
     let of = |index: usize, column: &str| read(tables, &of_case(TIMES, index), column);
-    let ours = (of(i, "t1")? - of(j, "t1")?).abs();
-    let printed = (first.tau.0 - second.tau.0).abs();
+    let times = [of(i, "t1")?, of(j, "t1")?];
+    let second_times = [of(i, "t2")?, of(j, "t2")?];
+    let printed_times = [first.tau.0, second.tau.0];
+    let apart = |[a, b]: [f64; 2]| (a - b).abs();
+    let printed = apart(printed_times);
     let mut momenta: f64 = 0.0;
     for column in ["M1", "M2", "M3"] {
         momenta = momenta.max((of(i, column)? - of(j, column)?).abs());
     }
     let tolerance = first.tau.1 + second.tau.1;
-    let reason = "half a unit of the last digits of both numbers".to_owned();
+    let test = |printed: f64, times: [f64; 2]| {
+        let reason = "half a unit of the last digits of both numbers".to_owned();
+        Test::Equal { printed, ours: apart(times), tolerance, reason }
+    };
     let statement =
         format!("The first conjugate times of both cases differ by {printed:.8}, as the two printed ones do.");
     let note = format!(
         "Not printed itself: it follows from the two printed times, and fails with them. Conjugate times depend on the momentum in the body alone; both cases start with the same one up to {momenta:.1e}, which is rounding \
          of the printed starts."
     );
-    let test = Test::Equal { printed, ours, tolerance, reason };
-    claims.push(claim("times_differ", DERIVED, statement, Evidence::Direct(test), note));
-    let test = Test::AtMost {
-        measured: ours,
-        tolerance: 3.0 * momenta,
-        reason: "|∂τ/∂M| is below 3 here, times the difference of the momenta in the body".to_owned(),
+    let claimed = claim("times_differ", DERIVED, statement, Evidence::Direct(test(printed, times)), note)
+        .refusing("by as much with the decimal point one place to the left", test(printed / 10.0, times))
+        .refusing("the second conjugate times differ by it", test(printed, second_times))
+        .refusing("the first of case 1 and the second of case 2 do", test(printed, [times[0], second_times[1]]));
+    claims.push(claimed);
+    let test = |slope: f64, times: [f64; 2]| Test::AtMost {
+        measured: apart(times),
+        tolerance: slope * momenta,
+        reason: format!("|∂τ/∂M| is below {slope} here, times the difference of the momenta in the body"),
     };
     let statement = "Both cases have the same first conjugate time, up to the rounding of their starts.";
     let note = "The start exactly on the curve's energy level has τ = tau_level, whatever k, K and Φ1 are.";
-    claims.push(claim("times_equal", BEYOND, statement, Evidence::Direct(test), note));
+    let claimed = claim("times_equal", BEYOND, statement, Evidence::Direct(test(3.0, times)), note)
+        .refusing("the two printed times are equal in this sense", test(3.0, printed_times))
+        .refusing("equal with |∂τ/∂M| below 2", test(2.0, times))
+        .refusing("the second of case 1 is the first of case 2", test(3.0, [second_times[0], times[1]]));
+    claims.push(claimed);
     Ok(())
 }
 
@@ -272,43 +305,59 @@ fn projection_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) 
         return Ok(());
     }
     let curve = |column: &str| read(tables, &given(POINT), column);
-    let (mut measured, mut cases): (f64, u64) = (0.0, 0);
+    let start = |table: &str| -> Result<[f64; 4], NodeError> {
+        let of = |column: &str| read(tables, table, column);
+        Ok([of("x0")?, of("y0")?, of("p_x")?, of("p_y")?])
+    };
+    let mut starts = Vec::new();
     for (i, _) in params.scene.start.cases.iter().enumerate().filter(|(_, case)| printed(params, case).is_some()) {
-        for column in ["x0", "y0", "p_x", "p_y"] {
-            measured = measured.max((read(tables, &of_case(POINT, i), column)? - curve(column)?).abs());
-        }
-        cases += 1;
+        starts.push(start(&of_case(POINT, i))?);
     }
-    if cases > 0 {
-        let test = Test::AtMost {
-            measured,
-            tolerance: 5e-6,
-            reason: "half a unit of the last printed digit of Φ3, the finest angle printed".to_owned(),
+    if !starts.is_empty() {
+        let test = |curve: [f64; 4]| {
+            let off = |start: &[f64; 4]| start.iter().zip(curve).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            Test::AtMost {
+                measured: starts.iter().map(off).fold(0.0, f64::max),
+                tolerance: 5e-6,
+                reason: "half a unit of the last printed digit of Φ3, the finest angle printed".to_owned(),
+            }
         };
+        let [x, y, p_x, p_y] = start(&given(POINT))?;
         let statement = "Both cases project on the curve with p_x = 1.1, p_y = 0.3155946, x = 0, y = arccos √0.1.";
         let note = "The largest difference of x, y, p_x, p_y at the start is that of p_x in case 1. y is meant mod π: section 2.4 with the \
                     right quadrant gives y − π, which (9) does not notice.";
-        claims.push(claim("same_curve", PLACE, statement, Evidence::Direct(test), note));
+        let claimed = claim("same_curve", PLACE, statement, Evidence::Direct(test([x, y, p_x, p_y])), note)
+            .refusing("y = arccos 0.1", test([x, libm::acos(ARTICLE_CURVE[0]), p_x, p_y]))
+            .refusing("y = arcsin √0.1", test([x, FRAC_PI_2 - y, p_x, p_y]))
+            .refusing("p_y = −0.3155946", test([x, y, p_x, -p_y]));
+        claims.push(claimed);
     }
-    let test = Test::Equal {
-        printed: 1.0,
-        ours: curve("h")?,
+    let Inertia { a, b, c } = params.scene.metric.rotation_group;
+    let [cosine_squared, p_x, p_y] = ARTICLE_CURVE;
+    // The Hamiltonian of (9) at the start.
+    let energy = |cosine_squared: f64, p_y: f64| {
+        let z = a + (b - a) * cosine_squared;
+        0.5 * (p_x * p_x * z + p_y * p_y * (c - z))
+    };
+    let test = |level: f64, ours: f64| Test::Equal {
+        printed: level,
+        ours,
         tolerance: 4e-8,
         reason: "one unit of the last printed digit of p_y, 1e-7, times ∂h/∂p_y = 0.39".to_owned(),
     };
     let note = "h = 1 needs p_y = 0.31559468: the printed number is cut, not rounded.";
-    claims.push(claim(
-        "energy_level",
-        PLACE,
-        "This curve lies on the energy level h = 1.",
-        Evidence::Direct(test),
-        note,
-    ));
+    let on_level = Evidence::Direct(test(1.0, energy(cosine_squared, p_y)));
+    let claimed = claim("energy_level", PLACE, "This curve lies on the energy level h = 1.", on_level, note)
+        .refusing("so it does with the last digit of p_y one lower", test(1.0, energy(cosine_squared, p_y - 1e-7)))
+        .refusing("so it does with y = arccos 0.1", test(1.0, energy(cosine_squared * cosine_squared, p_y)))
+        .refusing("on the energy level 2h = 1", test(0.5, energy(cosine_squared, p_y)));
+    claims.push(claimed);
     let t1 = curve("t1")?;
-    let test = Test::Equal {
-        printed: ARTICLE_T1,
+    let half = 5e-5;
+    let test = |printed: f64| Test::Equal {
+        printed,
         ours: t1,
-        tolerance: 5e-5,
+        tolerance: half,
         reason: "half a unit of the last printed digit".to_owned(),
     };
     let note = format!(
@@ -317,7 +366,11 @@ fn projection_claims(params: &Params, tables: &Tables, claims: &mut Vec<Claim>) 
         (ARTICLE_T1 / t1 - 1.0).abs()
     );
     let statement = "The first conjugate time of this curve is approximately 5.4177.";
-    claims.push(claim("t1_projected", PLACE, statement, Evidence::Direct(test), note));
+    let claimed = claim("t1_projected", PLACE, statement, Evidence::Direct(test(ARTICLE_T1)), note)
+        .refusing("one unit of the last digit less", test(ARTICLE_T1 - 2.0 * half))
+        .refusing("two units of the last digit more", test(ARTICLE_T1 + 4.0 * half))
+        .refusing("approximately 5.4717", test(ARTICLE_T1_SWAPPED));
+    claims.push(claimed);
     Ok(())
 }
 
@@ -326,20 +379,26 @@ fn transformation_claim(params: &Params, tables: &Tables) -> Result<Claim, NodeE
     let tolerance = 1e-12_f64.max(1e3 * tolerance(params.scene.accuracy));
     let reason = "error of the integration, magnified where the body's axis is near e3 or near the momentum".to_owned();
     let at_most = |measured: f64| Test::AtMost { measured, tolerance, reason: reason.clone() };
-    Ok(Claim {
+    let form = |column: &str| over_projections(params, tables, &[column]).map(&at_most);
+    let claimed = Claim {
         id: "transformation".to_owned(),
         place: "section 2.4".to_owned(),
         statement: "Φ1 = k + arctan((L − K cos Φ2)/(p2 sin Φ2)), Φ3 = l + arctan((K − L cos Φ2)/(p2 sin Φ2)) invert the Serret-Andoyer \
                     transformation; extremals on SO(3) project on those of (9)."
             .to_owned(),
         evidence: Evidence::Slip {
-            printed: at_most(over_projections(params, tables, &["principal_value_difference"])?),
+            printed: form("principal_value_difference")?,
             correction: "the arctangents in the quadrant of numerator and denominator".to_owned(),
-            corrected: at_most(transformation_error(params, tables)?),
+            corrected: at_most(
+                transformation_error(params, tables)?.max(over_projections(params, tables, &["quadrant_difference"])?),
+            ),
         },
         note: "With the principal value l is off by π where p2 sin Φ2 < 0; (9) has period π in y and does not notice, the momentum in the \
                body changes sign."
             .to_owned(),
         wrong: Vec::new(),
-    })
+    };
+    Ok(claimed
+        .refusing("Φ3 = l + arctan((L − K cos Φ2)/(p2 sin Φ2)), in its quadrant", form("exchanged_difference")?)
+        .refusing("Φ3 = l + arctan((L cos Φ2 − K)/(p2 sin Φ2)), in its quadrant", form("opposite_difference")?))
 }
