@@ -234,69 +234,105 @@ impl Definition for Fig1 {
             claim(id, "Proposition 3.21 and the text after it", statement, evidence, note)
         };
         let (z_minus, z_plus) = (value("z_minus")?, value("z_plus")?);
-        let inside = [z_minus >= 2.0 * a, z_minus <= 2.0 * b, z_plus > 2.0 * b];
-        let zeros = Cases::of(inside.map(|holds| (holds, format!("z− = {z_minus:?}, z+ = {z_plus:?}"))));
         let size = a + b + c;
+        let zeros = |least: f64, most: f64, below: f64| {
+            let inside = [z_minus >= least, z_minus <= most, z_plus > below];
+            Cases::of(inside.map(|holds| (holds, format!("z− = {z_minus:?}, z+ = {z_plus:?}")))).test()
+        };
+        let strip = tables.get("curvature").map_err(unread)?;
+        let (z, by_differences) =
+            (strip.f64s("z").map_err(unread)?, strip.f64s("curvature_by_differences").map_err(unread)?);
+        let formula = |formula: &dyn Fn(f64) -> f64| Test::AtMost {
+            measured: z.iter().zip(by_differences).map(|(z, ours)| (formula(*z) - ours).abs()).fold(0.0, f64::max),
+            tolerance: 1e-14 * size,
+            reason: "1e-14 of A+B+C, the factor of the formula".to_owned(),
+        };
+        let at_equator = value("curvature_by_differences_at_equator")?;
+        let maximum = |printed: f64| equal(printed, at_equator, 1e-14 * size);
+        let vanishes_at =
+            |place: &str| Ok(equal(0.0, value(&format!("curvature_by_differences_at_{place}"))?, 1e-14 * size));
+        let z_at_minimum = value("z_at_minimum")?;
+        let minimum_place = |printed: f64| equal(printed, z_at_minimum, 1e-14 * size);
+        let at_minimum = value("curvature_by_differences_at_minimum")?;
+        let minimum = |root: f64, divisor: f64| {
+            equal(-size * root * root / (divisor * z_minus * z_plus), at_minimum, 1e-14 * size)
+        };
+        let other = tables.get(OTHER_PROFILE).map_err(unread)?;
+        let edge = |bound: fn(f64, f64, f64) -> bool, sign: f64| edge_sides(params, own, other, bound, sign);
+        let [inside, outside] = edge(beyond_harmonic_mean, 1.0)?;
         Ok(vec![
             claim(
                 "curvature_formula",
                 "G = (A+B+C)(z − z−)(z − z+)/z².",
-                Evidence::Direct(Test::AtMost {
-                    measured: curvature_difference(tables.get("curvature").map_err(unread)?)?,
-                    tolerance: 1e-14 * size,
-                    reason: "1e-14 of A+B+C, the factor of the formula".to_owned(),
-                }),
+                Evidence::Direct(formula(&|z| size * (z - z_minus) * (z - z_plus) / (z * z))),
                 "Against −(√μ)''/√μ by differences in double-double.",
-            ),
+            )
+            .refusing("the opposite sign", formula(&|z| -size * (z - z_minus) * (z - z_plus) / (z * z)))
+            .refusing("z in the place of z²", formula(&|z| size * (z - z_minus) * (z - z_plus) / z))
+            .refusing("(z − z−)(z + z+)", formula(&|z| size * (z - z_minus) * (z + z_plus) / (z * z))),
             claim(
                 "maximum",
                 "The largest value of G is G(0) = (B−A)(C−A)/A.",
-                Evidence::Direct(equal(
-                    value("curvature_maximum")?,
-                    value("curvature_by_differences_at_equator")?,
-                    1e-14 * size,
-                )),
+                Evidence::Direct(maximum((b - a) * (c - a) / a)),
                 "",
-            ),
-            claim("zeros", "z− lies in [2A, 2B] and z+ > 2B.", Evidence::Direct(zeros.test()), ""),
+            )
+            .refusing("divided by B", maximum((b - a) * (c - a) / b))
+            .refusing("C−B in the place of C−A", maximum((b - a) * (c - b) / a))
+            .refusing("twice as large", maximum(2.0 * (b - a) * (c - a) / a)),
+            claim(
+                "zeros",
+                "z− lies in [2A, 2B] and z+ > 2B.",
+                Evidence::Direct(zeros(2.0 * a, 2.0 * b, 2.0 * b)),
+                "",
+            )
+            .refusing("z− in [A, B], z+ > B", zeros(a, b, b))
+            .refusing("z− in [2B, 2C]", zeros(2.0 * b, 2.0 * c, 2.0 * b))
+            .refusing("z+ > 2C", zeros(2.0 * a, 2.0 * b, 2.0 * c)),
             claim(
                 "zero_place",
                 "G vanishes at φ1 = sn⁻¹(√((z− − 2A)/(2(B−A))))/α.",
-                Evidence::Direct(equal(0.0, value("curvature_by_differences_at_zero")?, 1e-14 * size)),
+                Evidence::Direct(vanishes_at("zero")?),
                 "The subscript of z− is lost in the text as read.",
-            ),
+            )
+            .refusing("φ*, with the harmonic mean of z− and z+ in the place of z−", vanishes_at("minimum")?)
+            .refusing("K(k)/α, with 2B in the place of z−", vanishes_at("edge")?),
             claim(
                 "minimum_place",
                 "G is least where z = 2 z− z+/(z− + z+), the harmonic mean of z− and z+.",
-                Evidence::Direct(equal(value("z_at_minimum_corrected")?, value("z_at_minimum")?, 1e-14 * size)),
+                Evidence::Direct(minimum_place(value("z_at_minimum_corrected")?)),
                 &format!(
                     "The text as read has 2z − z+ above the fraction, the product with its subscript lost, as in φ1. Taken as it stands \
                      that is {:.4}, a number without a unit, where z = {:.4}.",
                     value("z_at_minimum_as_read")?,
-                    value("z_at_minimum")?
+                    z_at_minimum
                 ),
-            ),
+            )
+            .refusing("the text as read, (2z − z+)/(z− + z+)", minimum_place(value("z_at_minimum_as_read")?))
+            .refusing("the arithmetic mean", minimum_place(0.5 * (z_minus + z_plus)))
+            .refusing("the geometric mean", minimum_place((z_minus * z_plus).sqrt())),
             claim(
                 "minimum",
                 "The least value of G is −(A+B+C)(z+ − z−)²/(4 z− z+).",
-                Evidence::Direct(equal(
-                    value("curvature_minimum")?,
-                    value("curvature_by_differences_at_minimum")?,
-                    1e-14 * size,
-                )),
+                Evidence::Direct(minimum(z_plus - z_minus, 4.0)),
                 &format!(
                     "The text as read has (z + z−)², with a subscript and the minus lost. Taken as z+ + z− it would be {:.4}, where G \
                      is {:.4}.",
                     value("curvature_minimum_as_read")?,
-                    value("curvature_by_differences_at_minimum")?
+                    at_minimum
                 ),
-            ),
+            )
+            .refusing("(z+ + z−)²", minimum(z_plus + z_minus, 4.0))
+            .refusing("2 z− z+ below the fraction", minimum(z_plus - z_minus, 2.0))
+            .refusing("(z− z+) below the fraction", minimum(z_plus - z_minus, 1.0)),
             claim(
                 "edge",
                 "G has local maxima at φ = ±K(k)/α.",
-                edge_evidence(params, own, tables.get(OTHER_PROFILE).map_err(unread)?)?,
+                Evidence::OnlyWhen { condition: "B > 2AC/(A + C)".to_owned(), inside, outside },
                 "G is least where 1/μ is the harmonic mean of A, B, C; that is inside the strip only if it is below B.",
-            ),
+            )
+            .refusing("if B > AC/(A + C)", first(edge(|a, b, c| b * (a + c) > a * c, 1.0)?))
+            .refusing("if B < 2AC/(A + C)", first(edge(|a, b, c| b * (a + c) < 2.0 * a * c, 1.0)?))
+            .refusing("G is least there if B > 2AC/(A + C)", first(edge(beyond_harmonic_mean, -1.0)?)),
         ])
     }
 }
@@ -310,8 +346,25 @@ fn curvature_difference(table: &Table) -> Result<f64, NodeError> {
     Ok(first.iter().zip(second).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max))
 }
 
-/// Whether the edge is a local maximum: above the only minimum of G between equator and edge, for both bodies.
-fn edge_evidence(params: &Params, own: &Table, other: &Table) -> Result<Evidence, NodeError> {
+/// Whether B is beyond the harmonic mean of A and C.
+fn beyond_harmonic_mean(a: f64, b: f64, c: f64) -> bool {
+    b * (a + c) > 2.0 * a * c
+}
+
+/// The test where the condition holds.
+fn first([inside, _]: [Test; 2]) -> Test {
+    inside
+}
+
+/// Whether the edge is a local maximum (`sign` 1), above the only minimum of G between equator and edge, or the minimum itself (−1): over the
+/// bodies for which the condition on A, B, C holds, and over those for which it does not.
+fn edge_sides(
+    params: &Params,
+    own: &Table,
+    other: &Table,
+    condition: fn(f64, f64, f64) -> bool,
+    sign: f64,
+) -> Result<[Test; 2], NodeError> {
     let bodies = [(params.scene.metric.serret_andoyer, own), (params.other_body, other)];
     let mut sides = [Cases::default(), Cases::default()];
     for (Inertia { a, b, c }, profile) in bodies {
@@ -319,11 +372,11 @@ fn edge_evidence(params: &Params, own: &Table, other: &Table) -> Result<Evidence
         let (edge, least) = (value("curvature_by_differences_at_edge")?, value("curvature_by_differences_at_minimum")?);
         // The minimum at the edge itself: no local maximum there. Differences are good to 1e-15.
         let is_maximum = edge > least + 1e-14;
-        let side = &mut sides[usize::from(b * (a + c) <= 2.0 * a * c)];
-        side.add(!is_maximum, || format!("A = {a}, B = {b}, C = {c}: G(K/α) = {edge:?} is the least value"));
+        let side = &mut sides[usize::from(!condition(a, b, c))];
+        let found = if is_maximum { "above the least value" } else { "the least value" };
+        side.add(is_maximum != (sign > 0.0), || format!("A = {a}, B = {b}, C = {c}: G(K/α) = {edge:?} is {found}"));
     }
-    let [inside, outside] = sides.map(Cases::test);
-    Ok(Evidence::OnlyWhen { condition: "B > 2AC/(A + C)".to_owned(), inside, outside })
+    Ok(sides.map(Cases::test))
 }
 
 fn extremals_panel(params: &Params, table: &Table, profile: Option<&Table>) -> Result<Panel, NodeError> {

@@ -10,7 +10,7 @@ use super::definition::{Definition, Experiment, findings_kind, picture_kind};
 use super::findings::{Cases, claim, named, unread, value};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
-use super::scenes::potential::{member, members, potential_panel};
+use super::scenes::potential::{Member, member, members, potential_panel};
 use crate::contract::accuracy::Accuracy;
 use crate::contract::claim::{Claim, Evidence, Test};
 use crate::contract::config::{Invalid, Validate};
@@ -172,46 +172,69 @@ impl Definition for Fig2 {
         members.sort_by(|a, b| a.p_theta.total_cmp(&b.p_theta));
         let values = Self::values(params, tables)?;
         let value = |name: &str| named(&values, name).map(|found| found.value);
-        let mut growing = Cases::default();
-        for pair in members.windows(2).filter(|pair| pair[1].p_theta > pair[0].p_theta) {
-            for (low, high) in pair[0].points.iter().zip(&pair[1].points) {
-                growing.add(high.1 <= low.1, || {
-                    format!("φ = {:?}: p_θ = {:?} and {:?}", low.0, pair[0].p_theta, pair[1].p_theta)
-                });
+        // What is said of V at the larger of two constants over V at the smaller, given the quotient of the constants.
+        let quotients = |holds: fn(f64, f64) -> bool| {
+            let mut cases = Cases::default();
+            for pair in members.windows(2).filter(|pair| pair[1].p_theta > pair[0].p_theta) {
+                for (low, high) in pair[0].points.iter().zip(&pair[1].points) {
+                    cases.add(!holds(high.1 / low.1, pair[1].p_theta / pair[0].p_theta), || {
+                        format!("φ = {:?}: p_θ = {:?} and {:?}", low.0, pair[0].p_theta, pair[1].p_theta)
+                    });
+                }
             }
-        }
+            cases.test()
+        };
+        let zone = |holds: &dyn Fn(f64) -> bool| {
+            let family = members.iter().filter(|m| m.curve == FAMILY || m.curve == START);
+            let case = |m: &Member| {
+                let as_said = (m.class == OSCILLATING) == holds(m.p_theta);
+                (as_said, format!("p_θ = {:?}: {}", m.p_theta, m.class))
+            };
+            Cases::of(family.map(case)).test()
+        };
         let (low, high) = (value("p_theta_separatrix")?, value("p_theta_start")?);
-        let family = members.iter().filter(|m| m.curve == FAMILY || m.curve == START);
-        let zone = Cases::of(family.map(|m| {
-            let as_said = (m.class == OSCILLATING) == (m.p_theta > low && m.p_theta <= high);
-            (as_said, format!("p_θ = {:?}: {}", m.p_theta, m.class))
-        }));
+        let (lowest, highest) = (1.0 / params.scene.metric.serret_andoyer.c.sqrt(), value("p_theta_equator")?);
         let claim = |id: &str, statement: &str, test: Test| {
             claim(id, "section 3.3.3, before Figure 2", statement, Evidence::Direct(test), "")
         };
-        let one = |ours: f64| Test::Equal {
-            printed: 1.0,
-            ours,
-            tolerance: 4.0 * f64::EPSILON,
-            reason: "rounding of a product of three".to_owned(),
+        let one = |curve: &str, extremum: fn(f64, f64) -> f64| -> Result<Test, NodeError> {
+            let potentials = member(&members, curve)?.points.iter().map(|point| point.1);
+            Ok(Test::Equal {
+                printed: 1.0,
+                ours: potentials.reduce(extremum).unwrap_or(f64::NAN),
+                tolerance: 4.0 * f64::EPSILON,
+                reason: "rounding of a product of three".to_owned(),
+            })
         };
         Ok(vec![
-            claim("increasing", "V(φ, p_θ) increases with p_θ at every φ.", growing.test()),
+            claim("increasing", "V(φ, p_θ) increases with p_θ at every φ.", quotients(|v, _| v > 1.0))
+                .refusing("decreases", quotients(|v, _| v < 1.0))
+                .refusing("increases at least like p_θ³", quotients(|v, p| v >= p * p * p))
+                .refusing("increases at most like p_θ", quotients(|v, p| v > 1.0 && v <= p)),
             claim(
                 "separatrix",
                 "p_θ = B^(−1/2) describes the separatrix: its potential reaches 1 only at the edges.",
-                one(value("separatrix_largest_potential")?),
-            ),
+                one(SEPARATRIX, f64::max)?,
+            )
+            .refusing("p_θ = A^(−1/2)", one(EQUATOR, f64::max)?)
+            .refusing("p_θ = (2/z(φ0))^(1/2)", one(START, f64::max)?)
+            .refusing("reaches 1 only at φ = 0", one(SEPARATRIX, f64::min)?),
             claim(
                 "equator",
                 "p_θ = A^(−1/2) is the largest constant: its potential is at least 1 everywhere.",
-                one(value("equator_least_potential")?),
-            ),
+                one(EQUATOR, f64::min)?,
+            )
+            .refusing("p_θ = B^(−1/2)", one(SEPARATRIX, f64::min)?)
+            .refusing("p_θ = (2/z(φ0))^(1/2)", one(START, f64::min)?)
+            .refusing("at most 1 everywhere", one(EQUATOR, f64::max)?),
             claim(
                 "start_zone",
                 "Oscillating trajectories from φ0 have p_θ in (B^(−1/2), (2/z(φ0))^(1/2)].",
-                zone.test(),
-            ),
+                zone(&|p| p > low && p <= high),
+            )
+            .refusing("without the upper end", zone(&|p| p > low && p < high))
+            .refusing("up to A^(−1/2)", zone(&|p| p > low && p <= highest))
+            .refusing("from C^(−1/2)", zone(&|p| p > lowest && p <= high)),
         ])
     }
 }

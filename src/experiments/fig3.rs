@@ -371,7 +371,8 @@ struct FirstCrossing {
     theta: f64,
     phi: f64,
     distance: f64,
-    momentum_difference: f64,
+    /// `p_θ` of both extremals.
+    momenta: [f64; 2],
     half_period_difference: f64,
 }
 
@@ -388,8 +389,8 @@ fn first_crossings(params: &Params, tables: &Tables, phi0: f64) -> Result<Vec<Fi
                 theta: theta[0],
                 phi: phi[0],
                 distance: distance[0],
-                momentum_difference: (one[0] - other[0]).abs(),
-                half_period_difference: late[0].abs(),
+                momenta: [one[0], other[0]],
+                half_period_difference: late[0],
             });
         }
     }

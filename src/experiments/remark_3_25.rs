@@ -29,6 +29,7 @@ use crate::plot::role::Role;
 use crate::table::Tables;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 
 /// Parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -221,38 +222,62 @@ impl Definition for Remark {
         let column = |name: &str| cusps.f64s(name).map_err(unread);
         let (phi0, t1, theta) = (column("phi0")?, column("t1")?, column("theta")?);
         let (t_star, theta_star) = (value("t_star")?, value("theta_star")?);
-        let mut larger = Cases::default();
-        for i in 0..cusps.rows() {
-            let smaller = t1[i] < t_star.value - t_star.error || theta[i] < theta_star.value - theta_star.error;
-            larger.add(smaller, || format!("phi0 = {:?}: t1 = {:?}, theta = {:?}", phi0[i], t1[i], theta[i]));
-        }
+        // Whether time and θ are least (1) or largest (−1) at φ0 = 0.
+        let extreme = |of_time: f64, of_theta: f64| {
+            let beyond = |sign: f64, x: f64, star: &NamedValue| sign * (x - star.value) < -star.error;
+            let mut cases = Cases::default();
+            for i in 0..cusps.rows() {
+                let fault = beyond(of_time, t1[i], t_star) || beyond(of_theta, theta[i], theta_star);
+                cases.add(fault, || format!("phi0 = {:?}: t1 = {:?}, theta = {:?}", phi0[i], t1[i], theta[i]));
+            }
+            cases
+        };
+        let Inertia { a, b, c } = params.scene.metric.serret_andoyer;
+        let of_root = |numerator: f64, radicand: f64| PI * numerator / radicand.sqrt();
+        let time = |numerator: f64, radicand: f64| against(of_root(numerator, radicand), t_limit);
+        let angle = |numerator: f64, radicand: f64| against(of_root(numerator, radicand), theta_limit);
+        let product = (b - a) * (c - a);
+        let root_of_curvature = PI / value("t_star_from_curvature")?.value;
+        let curvature = |of_root: fn(f64) -> f64| against(of_root(root_of_curvature), t_limit);
         Ok(vec![
             claim(
                 "time",
                 "Remark 3.25; Theorem 3.9, part 2",
                 "The limit of the first conjugate time at the equator is π√A/√((B−A)(C−A)).",
-                Evidence::Direct(against(t_star.value, t_limit)),
+                Evidence::Direct(time(a.sqrt(), product)),
                 "",
-            ),
+            )
+            .refusing("√B in the place of √A", time(b.sqrt(), product))
+            .refusing("C−B in the place of C−A", time(a.sqrt(), (b - a) * (c - b)))
+            .refusing("A in the place of √A", time(a, product)),
             claim(
                 "curvature",
                 "Lemma 3.18",
                 "The first conjugate point along the equator occurs at π/√G(0).",
-                Evidence::Direct(against(value("t_star_from_curvature")?.value, t_limit)),
+                Evidence::Direct(curvature(|root| PI / root)),
                 "",
-            ),
+            )
+            .refusing("π/G(0)", curvature(|root| PI / (root * root)))
+            .refusing("2π/√G(0)", curvature(|root| 2.0 * PI / root))
+            .refusing("π/(2√G(0))", curvature(|root| 0.5 * PI / root)),
             claim(
                 "angle",
                 "Remark 3.25",
                 "The limit of θ at the first conjugate point is πA√A/√((B−A)(C−A)).",
                 Evidence::Slip {
-                    printed: against(value("theta_star_printed")?.value, theta_limit),
+                    printed: angle(a * a.sqrt(), product),
                     correction: "πA/√((B−A)(C−A))".to_owned(),
-                    corrected: against(theta_star.value, theta_limit),
+                    corrected: angle(a, product),
                 },
                 "On the equator θ' = p_θ/μ = A^(−1/2) A = √A, so θ* = √A t*; the printed value has one factor √A too many.",
-            ),
-            larger.claim("minimum", "Remark 3.25", "Over φ0, time and θ of the cusp are least at φ0 = 0.", ""),
+            )
+            .refusing("π√A/√((B−A)(C−A))", angle(a.sqrt(), product))
+            .refusing("πB/√((B−A)(C−A))", angle(b, product))
+            .refusing("πA/√((B−A)(C−B))", angle(a, (b - a) * (c - b))),
+            extreme(1.0, 1.0)
+                .claim("minimum", "Remark 3.25", "Over φ0, time and θ of the cusp are least at φ0 = 0.", "")
+                .refusing("both largest", extreme(-1.0, -1.0).test())
+                .refusing("the time least, θ largest", extreme(1.0, -1.0).test()),
             routes_agree(&second_routes(tables)?)?,
         ])
     }

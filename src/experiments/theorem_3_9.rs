@@ -7,12 +7,14 @@
 //!
 //! Hard spots: starts near turning points and `ξ1` near 1, where t1 M/K climbs from 2 to nearly 4 within a phase of order 1/K.
 
+mod claims;
+
 use super::definition::{Definition, Experiment, findings_kind, picture_kind};
-use super::findings::{Cases, claim, largest_route_difference, named, quantities, routes_agree, unread, value};
+use super::findings::{largest_route_difference, quantities, unread, value};
 use super::nodes::Nodes;
 use super::scenes::more::Asked;
 use crate::contract::accuracy::Accuracy;
-use crate::contract::claim::{Claim, Evidence, Test};
+use crate::contract::claim::Claim;
 use crate::contract::config::{Invalid, Validate};
 use crate::contract::node::{Kind, NodeError};
 use crate::contract::value::NamedValue;
@@ -134,7 +136,7 @@ const PICTURE: Kind = picture_kind(
         "experiments/scenes",
         "experiments/spin_branches.rs",
         "experiments/findings.rs",
-        "experiments/theorem_3_9.rs",
+        "experiments/theorem_3_9",
         "plot",
         "table",
     ],
@@ -148,7 +150,7 @@ const FINDINGS: Kind = findings_kind(
         "experiments/scenes",
         "experiments/spin_branches.rs",
         "experiments/findings.rs",
-        "experiments/theorem_3_9.rs",
+        "experiments/theorem_3_9",
         "table",
     ],
 );
@@ -297,11 +299,18 @@ impl Definition for Theorem {
             values.push(value(name, (number, error), unit, meaning, route));
         };
         let closed = "closed form, equation (15) without poles";
-        add("grid_smallest_ratio", grid.smallest, RATIO_ERROR, "1", "smallest t1 M/K of the grid", closed);
-        add("grid_largest_ratio", grid.largest, RATIO_ERROR, "1", "largest t1 M/K of the grid, t > 0", closed);
+        add("grid_smallest_ratio", grid.smallest(), RATIO_ERROR, "1", "smallest t1 M/K of the grid", closed);
+        add(
+            "grid_largest_ratio",
+            grid.largest(|start| start.forward),
+            RATIO_ERROR,
+            "1",
+            "largest t1 M/K of the grid, t > 0",
+            closed,
+        );
         add(
             "grid_largest_smaller_ratio",
-            grid.largest_smaller,
+            grid.largest(|start| start.smaller),
             RATIO_ERROR,
             "1",
             "largest t1 M/K of the grid, smaller |t| of both signs",
@@ -322,108 +331,7 @@ impl Definition for Theorem {
     }
 
     fn claims(params: &Params, tables: &Tables) -> Result<Vec<Claim>, NodeError> {
-        let grid = Grid::read(params, tables)?;
-        let values = Self::values(params, tables)?;
-        let value = |name: &str| named(&values, name).map(|found| found.value);
-        let at_most = |measured: f64, tolerance: f64, reason: &str| Test::AtMost {
-            measured,
-            tolerance,
-            reason: reason.to_owned(),
-        };
-        let (t_star, least) = (value("t_star")?, value("smallest_time")?);
-        let Counterexample { h, y0, xi1 } = params.counterexample;
-        let minimum = if params.part_2.phi0.contains(&0.0) {
-            Evidence::Direct(at_most(
-                (least - t_star).abs() / t_star,
-                1e-14,
-                "relative error of the closed form's times: none of the sweep may be smaller, and the least is that of the equator",
-            ))
-        } else {
-            Evidence::NotChecked {
-                reason: "no start of the scene is on the equator, where the least time is attained".to_owned(),
-            }
-        };
-        let part_1 = "Theorem 3.9, part 1";
-        let part_2 = "Theorem 3.9, part 2";
-        Ok(vec![
-            claim(
-                "lower_bound",
-                part_1,
-                "t1 ≥ 2K(m)/M.",
-                Evidence::Direct(at_most(2.0 - grid.smallest, RATIO_ERROR, "rounding of a number of size 2")),
-                "",
-            ),
-            claim(
-                "turning_points",
-                "Lemma 3.8; Theorem 3.9, part 1",
-                "t1 = 2K(m)/M along trajectories that start with p_y = 0.",
-                Evidence::Direct(at_most(
-                    turning_points(params, tables)?,
-                    by_integration_allowed(params, tables)?,
-                    "half a period by formula against integration, at the cusps of part 2",
-                )),
-                "",
-            ),
-            claim(
-                "upper_bound",
-                "Corollary 3.7; Theorem 3.9, part 1",
-                "t1 < 3K(m)/M.",
-                Evidence::Direct(grid.beyond_smaller.test()),
-                "t1 is the smaller |t| of both signs, as defined before Lemma 3.4: forward it is below 4K − ψ0, backward below 2K + ψ0, in \
-                 units of 1/M.",
-            ),
-            claim(
-                "upper_bound_forward",
-                "proof of Theorem 3.24, after Theorem 3.9",
-                "The first conjugate time t > 0 is below 3K(m)/M, three quarters of a period.",
-                Evidence::OnlyWhen {
-                    condition: "ψ0 ≥ K: the equator has been passed since the last turning point".to_owned(),
-                    inside: grid.beyond_late.test(),
-                    outside: grid.beyond_early.test(),
-                },
-                format!(
-                    "For t > 0 alone the interval of Lemma 3.6 is (2K, 4K − ψ0], which is longer than 3K for ψ0 < K. Example: h = {h:?}, y0 = \
-                     {y0:?}, ξ1 = {xi1:?} on this body has t1 M/K = {:.6}.",
-                    value("counterexample_ratio")?
-                ),
-            ),
-            claim(
-                "true_upper_bound",
-                part_1,
-                "For the first t > 0: M t1 < 4K − ψ0, with ψ0 the phase since the last turning point.",
-                Evidence::Direct(grid.beyond_true.test()),
-                "Not in the article: half a period plus the time to the first turning point.",
-            ),
-            claim(
-                "supremum",
-                part_1,
-                "The supremum of t1 M/K over all oscillating trajectories is 4, approached like 4 − (ln 3)/K.",
-                Evidence::Direct(Test::Equal {
-                    printed: LN_3,
-                    ours: value("supremum_rate")?,
-                    tolerance: 1e-6,
-                    reason: "the limit ξ1 → 1 is approached like (1 − ξ1) K; rounding of 4 − t1 M/K, times K"
-                        .to_owned(),
-                }),
-                "Not in the article: for m → 1 equation (15) becomes coth w = 4 − coth ψ0 with M t1 = 4K − ψ0 − w, largest at coth ψ0 = 2.",
-            ),
-            claim(
-                "minimum",
-                part_2,
-                "The least first conjugate time is π√A/√(2h(B−A)(C−A)).",
-                minimum,
-                "An infimum over p_x > 0 and all starts: attained in the limit, on the equator only. From other starts the least t1 is T/2 at \
-                 p_y = 0, which is larger.",
-            ),
-            claim(
-                "limit",
-                part_2,
-                "t1 → ∞ for p_x → √(2h/B).",
-                Evidence::Direct(unbounded(params, tables)?),
-                "t1 grows by at least 1/M for each factor e by which δ = B p_θ² − 1 falls, M = √((B−A)(C−B)/B) on the separatrix.",
-            ),
-            routes_agree(&second_routes(params, tables)?)?,
-        ])
+        claims::claims(params, tables, &Self::values(params, tables)?)
     }
 }
 
@@ -432,51 +340,43 @@ const LN_3: f64 = 1.098_612_288_668_109_7;
 /// Absolute error of t1 M/K, a number of size 4: a few ε of its parts.
 const RATIO_ERROR: f64 = 1e-14;
 
-/// What the grid of part 1 shows.
-struct Grid {
-    smallest: f64,
-    largest: f64,
-    largest_smaller: f64,
-    /// Starts whose smaller |t| of both signs is not below 3K/M.
-    beyond_smaller: Cases,
-    /// Those whose first t > 0 is not, before and after the equator.
-    beyond_early: Cases,
-    beyond_late: Cases,
-    /// And those whose first t > 0 is not below (4K − ψ0)/M.
-    beyond_true: Cases,
+/// A start of the grid of part 1: times in units of K(m)/M.
+struct GridStart {
+    xi1: f64,
+    /// The phase ψ0 since the last turning point, in units of K(m).
+    phase: f64,
+    /// The first conjugate time t > 0.
+    forward: f64,
+    /// The smaller |t| of both signs.
+    smaller: f64,
 }
+
+/// The grid of part 1.
+struct Grid(Vec<GridStart>);
 
 impl Grid {
     fn read(params: &Params, tables: &Tables) -> Result<Self, NodeError> {
-        let mut grid = Self {
-            smallest: f64::INFINITY,
-            largest: 0.0,
-            largest_smaller: 0.0,
-            beyond_smaller: Cases::default(),
-            beyond_early: Cases::default(),
-            beyond_late: Cases::default(),
-            beyond_true: Cases::default(),
-        };
+        let mut starts = Vec::new();
         for xi1 in params.scene.start.xi1.values() {
             let table = tables.get(&format!("bounds/xi1={xi1:?}")).map_err(unread)?;
             let column = |name: &str| table.f64s(name).map_err(unread);
-            let (phase, ratio, smaller) = (column("psi0_over_k")?, column("ratio")?, column("ratio_smaller")?);
-            let upper = column("upper")?;
-            for row in 0..table.rows() {
-                grid.smallest = grid.smallest.min(smaller[row]);
-                grid.largest = grid.largest.max(ratio[row]);
-                grid.largest_smaller = grid.largest_smaller.max(smaller[row]);
-                let forward = if phase[row] < 1.0 { &mut grid.beyond_early } else { &mut grid.beyond_late };
-                for (found, x, limit) in [
-                    (&mut grid.beyond_smaller, smaller[row], 3.0),
-                    (forward, ratio[row], 3.0),
-                    (&mut grid.beyond_true, ratio[row], upper[row]),
-                ] {
-                    found.add(x >= limit, || format!("ξ1 = {xi1:?}, ψ0/K = {:?}: t1 M/K = {x:?}", phase[row]));
-                }
-            }
+            let (phase, forward, smaller) = (column("psi0_over_k")?, column("ratio")?, column("ratio_smaller")?);
+            starts.extend((0..table.rows()).map(|row| GridStart {
+                xi1,
+                phase: phase[row],
+                forward: forward[row],
+                smaller: smaller[row],
+            }));
         }
-        Ok(grid)
+        Ok(Self(starts))
+    }
+
+    fn smallest(&self) -> f64 {
+        self.0.iter().map(|start| start.smaller).fold(f64::INFINITY, f64::min)
+    }
+
+    fn largest(&self, time: fn(&GridStart) -> f64) -> f64 {
+        self.0.iter().map(time).fold(0.0, f64::max)
     }
 }
 
@@ -508,42 +408,10 @@ fn cusp_row(table: &Table) -> Result<usize, NodeError> {
     descending.and_then(|row| row.checked_sub(1)).ok_or_else(|| NodeError::new("no cusp"))
 }
 
-/// The largest relative difference between half a period and the integrated conjugate time, at the cusps.
-fn turning_points(params: &Params, tables: &Tables) -> Result<f64, NodeError> {
-    let mut worst: f64 = 0.0;
-    let first = part_2_tables(params, tables, "conjugate-locus")?;
-    for (table, second) in first.into_iter().zip(part_2_tables(params, tables, "conjugate-locus-by-integration")?) {
-        worst = worst.max(second.f64s("t1_difference").map_err(unread)?[cusp_row(table)?]);
-    }
-    Ok(worst)
-}
-
-fn by_integration_allowed(params: &Params, tables: &Tables) -> Result<f64, NodeError> {
-    let mut allowed: f64 = 0.0;
-    for table in part_2_tables(params, tables, "conjugate-locus-by-integration")? {
-        allowed = table.f64s("allowed").map_err(unread)?.iter().copied().fold(allowed, f64::max);
-    }
-    Ok(allowed)
-}
-
-/// Steps towards the separatrix, beyond δ = 1e-3, over which t1 does not grow.
-fn unbounded(params: &Params, tables: &Tables) -> Result<Test, NodeError> {
-    let mut growing = Cases::default();
-    for table in part_2_tables(params, tables, "conjugate-locus")? {
-        let (delta, t1) = (table.f64s("delta").map_err(unread)?, table.f64s("t1").map_err(unread)?);
-        for row in 1..table.rows() {
-            let (far, near) = if delta[row] < delta[row - 1] { (row, row - 1) } else { (row - 1, row) };
-            if delta[near] < 1e-3 {
-                growing.add(t1[far] <= t1[near], || format!("δ = {:?}: t1 = {:?}", delta[far], t1[far]));
-            }
-        }
-    }
-    Ok(growing.test())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contract::claim::Evidence;
     use crate::experiments::preview;
 
     #[test]
