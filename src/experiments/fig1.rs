@@ -46,7 +46,7 @@ pub struct Params {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Shown {
-    /// Points of the curves of panel (a): odd, 3 to 9999.
+    /// Points of the curves of panel (a): odd, 5 to 9999.
     pub curvature_points: usize,
     /// Points of each extremal, 2 to 9999.
     pub points: usize,
@@ -63,8 +63,8 @@ impl Validate for Params {
         self.scene.validate_effects(&OWN, SERRET_ANDOYER)?;
         self.other_body.validate("other_body")?;
         let Shown { curvature_points, points, turns, strips } = self.picture;
-        let odd = (3..=9999).contains(&curvature_points) && curvature_points % 2 == 1;
-        Invalid::unless(odd, "picture.curvature_points", curvature_points, "an odd number from 3 to 9999")?;
+        let odd = (5..=9999).contains(&curvature_points) && curvature_points % 2 == 1;
+        Invalid::unless(odd, "picture.curvature_points", curvature_points, "an odd number from 5 to 9999")?;
         Invalid::unless((2..=9999).contains(&points), "picture.points", points, "2 to 9999")?;
         Invalid::number(turns > 0.0 && turns <= 100.0, "picture.turns", turns, "above 0, at most 100")?;
         Invalid::number((1.0..=100.0).contains(&strips), "picture.strips", strips, "1 to 100")
@@ -247,13 +247,15 @@ impl Definition for Fig1 {
             tolerance: 1e-14 * size,
             reason: "1e-14 of A+B+C, the factor of the formula".to_owned(),
         };
+        // At the equator, and nowhere on the strip larger.
         let at_equator = value("curvature_by_differences_at_equator")?;
-        let maximum = |printed: f64| equal(printed, at_equator, 1e-14 * size);
+        let largest = by_differences.iter().copied().fold(at_equator, f64::max);
+        let maximum = |printed: f64| equal(printed, largest, 1e-14 * size);
         let vanishes_at =
             |place: &str| Ok(equal(0.0, value(&format!("curvature_by_differences_at_{place}"))?, 1e-14 * size));
-        let z_at_minimum = value("z_at_minimum")?;
+        let z_at_minimum = z_of_least(z, by_differences);
         let minimum_place = |printed: f64| equal(printed, z_at_minimum, 1e-14 * size);
-        let at_minimum = value("curvature_by_differences_at_minimum")?;
+        let at_minimum = by_differences.iter().copied().fold(value("curvature_by_differences_at_minimum")?, f64::min);
         let minimum = |root: f64, divisor: f64| {
             equal(-size * root * root / (divisor * z_minus * z_plus), at_minimum, 1e-14 * size)
         };
@@ -335,6 +337,16 @@ impl Definition for Fig1 {
             .refusing("G is least there if B > 2AC/(A + C)", first(edge(beyond_harmonic_mean, -1.0)?)),
         ])
     }
+}
+
+/// Where the curvature is least, from three of its values by differences far apart: G is a quadratic polynomial in `1/z` (the claim
+/// `curvature_formula`), so its vertex is exact, and no root or mean of the article is used. NaN where it has no least value.
+fn z_of_least(z: &[f64], curvature: &[f64]) -> f64 {
+    let rows = [0, z.len() / 4, z.len() / 2];
+    let [(u0, g0), (u1, g1), (u2, g2)] = rows.map(|row| (1.0 / z[row], curvature[row]));
+    let (first, second) = ((g1 - g0) / (u1 - u0), (g2 - g1) / (u2 - u1));
+    let bend = (second - first) / (u2 - u0);
+    if bend > 0.0 { 2.0 / (u0 + u1 - first / bend) } else { f64::NAN }
 }
 
 /// The node with the profile of the other body.
@@ -440,6 +452,15 @@ fn extremals_panel(params: &Params, table: &Table, profile: Option<&Table>) -> R
 mod tests {
     use super::*;
     use crate::experiments::preview;
+
+    /// (1 − 2/z)(1 − 3/z) is least at the harmonic mean of 2 and 3; with the other sign it has no least value.
+    #[test]
+    fn the_vertex_of_a_quadratic_in_the_inverse() {
+        let z = [2.0, 2.5, 3.5, 5.0, 8.0];
+        let values = z.map(|z| (1.0 - 2.0 / z) * (1.0 - 3.0 / z));
+        assert!((z_of_least(&z, &values) - 2.4).abs() < 1e-14);
+        assert!(z_of_least(&z, &values.map(|value| -value)).is_nan());
+    }
 
     #[test]
     fn values_and_verdicts() {
